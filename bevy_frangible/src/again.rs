@@ -1,8 +1,8 @@
-//! Fragments that break again: how they vibrate is found on other threads, and joined at a fixed time of the simulation.
+//! Fragments that break again: their modes are found on other threads, and added at a fixed time of the simulation.
 //!
-//! A newborn fragment is a plain body: the blow that runs through it is the one that has just made it. It is breakable from
-//! [`BreakAgain::delay`] on. What is not ready then is waited for, so that nothing hangs on the speed of the machine; how many are made at one
-//! time is limited, so that this need not happen.
+//! A newborn fragment is a plain body: the blow that runs through it is the one that has just made it. It is breakable from [`BreakAgain::delay`] on.
+//! The step waits for models that are not ready then, so that nothing depends on the speed of the machine. The number made at one time is limited, so
+//! that this need not happen.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -26,7 +26,7 @@ pub struct BreakAgain {
     pub least_mass: f64,
     /// Fragments of fewer uncut tetrahedra do not. Default 60.
     pub least_tets: usize,
-    /// From so long after its birth a fragment can break. Default 0.4 s; what is not ready by then is waited for.
+    /// Age from which a fragment can break. Default 0.4 s. A step waits for a model that is not ready by then.
     pub delay: Duration,
     /// Bodies that are being made at one time at most; of a break the largest fragments come first, and those that find no place stay plain.
     /// Default 4: finding the modes of a piece takes one core some tens of milliseconds.
@@ -103,7 +103,7 @@ impl Nursery {
     }
 }
 
-/// When something is due that was asked for now.
+/// Time at which a model requested now is due.
 fn due(time: &Time<Fixed>, delay: Duration) -> Duration {
     time.elapsed() + delay.max(SOONEST * time.timestep())
 }
@@ -157,7 +157,7 @@ pub(crate) fn expect_weaker(world: &mut World, entity: Entity, body: Body, confi
     });
 }
 
-/// A body of its own, with what its first steady load would have to find out.
+/// Makes a body of its own, with the data that its first steady load would have to compute.
 fn made(
     parent: &Body,
     portion: &Arc<Portion>,
@@ -182,7 +182,7 @@ pub(crate) fn join(
     let now = time.elapsed();
     while let Some(expected) = nursery.expected.pop_front_if(|e| e.due <= now) {
         let entity = expected.entity;
-        // What is gone, or broken, is not waited for.
+        // Nobody waits for a body that is gone, or broken.
         let Ok(known) = bodies.get(entity) else {
             continue;
         };

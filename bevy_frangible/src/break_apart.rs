@@ -81,7 +81,7 @@ impl Judged {
     }
 }
 
-/// Does what an outcome says; returns the break.
+/// Carries out an outcome. Returns the break.
 pub(crate) fn conclude(
     commands: &mut Commands,
     entity: Entity,

@@ -33,15 +33,15 @@ pub struct DebrisBudget {
 /// Treatment of pieces that rest.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum AtRest {
-    /// They sleep until something touches them.
+    /// Pieces sleep until something touches them.
     #[default]
     Sleep,
-    /// They become static: nothing moves them any more, and nothing has to be solved for them. They break again as others do.
+    /// Pieces become static: nothing moves them any more, and nothing has to be solved for them. They break again as others do.
     Freeze,
-    /// Those of one body become one static body, its [`Rubble`](crate::Rubble), with one collider and one mesh for its outer and one for its
-    /// crack faces. Their own entities go, and they neither break again nor count any more.
+    /// Pieces of one body become one static body, its [`Rubble`](crate::Rubble), with one collider and one mesh for its outer and one for its crack
+    /// faces. Their own entities go, and they neither break again nor count any more.
     Merge,
-    /// They go.
+    /// Pieces go.
     Go,
 }
 
@@ -97,7 +97,7 @@ pub(crate) fn remember(world: &mut World, fragments: &[Fragment], entities: &[En
     }
 }
 
-/// Lets go what is too much.
+/// Removes pieces beyond the budget.
 pub(crate) fn clear_up(
     mut heap: ResMut<Heap>,
     budget: Res<DebrisBudget>,
@@ -121,7 +121,7 @@ pub(crate) fn clear_up(
     }
 }
 
-/// Shrinks what goes, until it is gone.
+/// Shrinks pieces that go, until they are gone.
 pub(crate) fn fade(
     mut fading: Query<(Entity, &Fading, &mut Transform)>,
     budget: Res<DebrisBudget>,

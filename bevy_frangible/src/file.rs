@@ -26,7 +26,7 @@ impl FrangibleAsset {
 #[derive(Default, TypePath)]
 pub struct FrangibleLoader;
 
-/// Why a file is no body.
+/// Error of a file that is no body.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum LoadError {

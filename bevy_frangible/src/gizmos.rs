@@ -77,7 +77,7 @@ impl Plugin for FrangibleGizmosPlugin {
     }
 }
 
-/// From pale yellow to red.
+/// Colour of a share, from pale yellow to red.
 fn heat(share: f32) -> Color {
     let cold = 1.0 - share.clamp(0.0, 1.0);
     Color::srgb(1.0, 0.9 * cold, 0.6 * cold * cold)

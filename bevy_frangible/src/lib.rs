@@ -140,7 +140,7 @@ impl Fragments {
     }
 }
 
-/// When a piece was born, in the time of the fixed steps.
+/// Time at which a piece was born, in the time of the fixed steps.
 #[derive(Component, Clone, Copy)]
 pub(crate) struct Born(pub(crate) Duration);
 

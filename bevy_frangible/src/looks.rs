@@ -1,4 +1,4 @@
-//! Materials, or any other component, for what was a body's surface and for where it broke.
+//! Materials, or any other component, for the former surface of a body and for its crack faces.
 
 use bevy::prelude::*;
 
@@ -8,7 +8,7 @@ use crate::{BreakableBody, Broke, CrackFaces, FragmentOf, OuterFaces};
 /// entity with [`Breakable`](crate::Breakable), and add a [`LooksPlugin`] for the same component.
 #[derive(Component, Clone, Debug)]
 pub struct Looks<C: Component + Clone> {
-    /// Look of what was the body's surface.
+    /// Look of the body's former surface.
     pub outer: C,
     /// Look of the faces along which it broke.
     pub crack: C,

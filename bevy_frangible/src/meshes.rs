@@ -6,12 +6,12 @@ use bevy::prelude::*;
 use frangible::glam;
 use frangible::{Asset as Baked, TriMesh};
 
-/// To Bevy's vector.
+/// Converts to Bevy's vector.
 pub(crate) fn out(v: glam::Vec3) -> Vec3 {
     Vec3::from_array(v.to_array())
 }
 
-/// From Bevy's vector.
+/// Converts from Bevy's vector.
 pub(crate) fn into(v: Vec3) -> glam::Vec3 {
     glam::Vec3::from_array(v.to_array())
 }

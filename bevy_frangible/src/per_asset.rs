@@ -35,7 +35,7 @@ impl<T: Clone> PerAsset<T> {
         }
     }
 
-    /// Forgets what belongs to assets that are gone.
+    /// Forgets things that belong to assets that are gone.
     pub(crate) fn forget(&mut self, assets: &Assets<FrangibleAsset>) {
         self.0.retain(|id, _| assets.contains(*id));
     }

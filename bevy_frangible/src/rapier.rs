@@ -1,7 +1,7 @@
 //! Bodies that break in a world of Rapier, the one of `frangible-rapier`, in place of Avian.
 //!
-//! The world is a resource and has its own bodies; entities have only handles of them, and transforms that follow. Whether a body breaks,
-//! and what its pieces do, is decided there: [`FrangibleRapierPlugin`] stands in the place of [`FrangiblePlugin`](crate::FrangiblePlugin).
+//! The world is a resource and has its own bodies; entities have only handles of them, and transforms that follow. The world decides on breaks, and
+//! moves the pieces: [`FrangibleRapierPlugin`] stands in the place of [`FrangiblePlugin`](crate::FrangiblePlugin).
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -29,8 +29,8 @@ impl Default for FrangibleRapierPlugin {
 #[derive(Resource)]
 pub struct RapierWorld(pub BreakableWorld);
 
-/// A body of the [`RapierWorld`]: the entity's [`Transform`] follows it, the body goes with the entity, and the entity with the body.
-/// Breakable entities and their fragments get it; a game gives it to what it has put in the world itself.
+/// A body of the [`RapierWorld`]: the entity's [`Transform`] follows it, the body goes with the entity, and the entity with the body. Breakable
+/// entities and their fragments get it; a game gives it to bodies that it has put in the world itself.
 #[derive(Component, Clone, Copy, Debug)]
 #[require(Transform)]
 pub struct RapierBody(pub RigidBodyHandle);
@@ -127,7 +127,7 @@ fn strike(
     }
 }
 
-/// Steps the world, and lets entities know of what broke and what held.
+/// Steps the world, and tells entities of breaks and of blows that held.
 fn step(
     mut world: ResMut<RapierWorld>,
     known: Res<Entities>,
@@ -179,7 +179,7 @@ fn transform(pose: &Pose) -> Transform {
     Transform::from_translation(out(pose.translation)).with_rotation(turn)
 }
 
-/// Transforms follow their bodies, and what goes shrinks.
+/// Lets transforms follow their bodies, and shrinks pieces that go.
 fn follow(
     world: Res<RapierWorld>,
     mut bodies: Query<(Entity, &RapierBody, &mut Transform)>,

@@ -55,7 +55,7 @@ fn a_ball_goes_on_through_the_pane_that_it_breaks() {
         (then - momentum).length() < 0.02 * momentum.length(),
         "{momentum} {then}"
     );
-    // What was the body goes, and its pieces with it.
+    // The broken body goes, and its pieces with it.
     app.world_mut().despawn(pane);
     assert!(
         fragments
@@ -183,7 +183,7 @@ fn panes(app: &mut App, places: &[f32]) -> Vec<(Entity, Entity)> {
     thrown.map(throw).collect()
 }
 
-/// In which step each pane broke, and the bits of where everything was then.
+/// Step in which each pane broke, and the bits of all positions at that time.
 fn late(budget: usize, delay: u32) -> (Vec<u32>, Vec<[u32; 3]>) {
     let (mut app, _) = app();
     app.insert_resource(Gravity(Vec3::ZERO))

@@ -92,7 +92,7 @@ fn what_rests_becomes_static_and_is_not_moved_any_more() {
     assert_eq!(places(&app), before);
 }
 
-/// Corners of all faces that a piece is drawn with, in the world, m, by whether they are crack faces.
+/// Corners of all faces of a piece, in the world, m: outer faces and crack faces.
 fn corners(app: &mut App, of: &[Entity]) -> [Vec<Vec3>; 2] {
     let world = app.world_mut();
     let mut faces = world.query::<(&ChildOf, &Mesh3d, Has<CrackFaces>)>();
@@ -187,7 +187,7 @@ fn what_rests_shrinks_and_goes() {
         }
     });
     assert!(smallest < 0.1, "{smallest}");
-    // What had begun to shrink is gone too.
+    // Pieces that had begun to shrink are gone too.
     steps(&mut app, 61);
     let left = pieces(&app, pane);
     assert!(left.iter().all(|piece| creeping.contains(piece)));

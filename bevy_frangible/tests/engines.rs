@@ -35,8 +35,8 @@ fn a_throw_ends_in_avian_as_it_does_in_rapier() {
     }
     let [rapier, avian] = sums.map(|sum| sum / 100.0);
     println!("the ball goes on at {rapier} m/s in Rapier, {avian} m/s in Avian");
-    // 0.7 % apart at this speed (docs/engines.md; 7.8, 3.5 and -7.3 % at 4, 6 and 20 m/s). The blow and its cracks agree; what differs is how
-    // the ball then meets the pieces.
+    // 0.7 % apart at this speed (docs/engines.md; 7.8, 3.5 and -7.3 % at 4, 6 and 20 m/s). The blow and its cracks agree; the difference is in the
+    // ball's later contacts with the pieces.
     assert!((avian / rapier - 1.0).abs() < 0.05, "{avian} {rapier}");
 }
 

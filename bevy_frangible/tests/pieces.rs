@@ -137,7 +137,7 @@ fn siblings_that_overlap_creep_apart() {
     while app.world().get::<Broken>(pane).is_none() {
         app.update();
     }
-    // Stopped at their birth, they move only by what pushes overlaps apart.
+    // Stopped at their birth, they are moved only by the push-out of overlaps.
     app.world_mut().despawn(ball);
     let mut pieces = app
         .world_mut()

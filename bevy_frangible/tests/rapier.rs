@@ -105,7 +105,7 @@ fn a_ball_breaks_a_pane_and_transforms_follow() {
             .into_iter()
             .any(|&child| world.get::<CrackFaces>(child).is_some())
     );
-    // What was the body goes, and its pieces with it, here and in the world.
+    // The broken body goes, and its pieces with it, here and in the world.
     app.world_mut().despawn(pane);
     let left = app.world().resource::<RapierWorld>().0.physics.bodies.len();
     assert_eq!(left, 1, "the ball");

@@ -14,7 +14,7 @@ fn said(log: &Log, words: &str) -> bool {
     log.lines().iter().any(|line| line.contains(words))
 }
 
-/// Waits until somebody said so.
+/// Waits until a message with these words has come.
 fn hear(app: &mut App, log: &Log, words: &str) {
     for _ in 0..2000 {
         app.update();

@@ -1,4 +1,4 @@
-//! Bodies that break under what lies on them.
+//! Bodies that break under a resting load.
 
 use crate::common::{Log, app, body, ready};
 use avian3d::prelude::*;

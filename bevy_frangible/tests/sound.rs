@@ -9,10 +9,10 @@ use bevy_frangible::{Ears, FrangibleSoundPlugin, Heard};
 const RATE: f64 = 48_000.0;
 /// Speed of sound, m/s.
 const SPEED: f64 = 343.0;
-/// From the place where the pane lands to the ears, m.
+/// Vector from the place where the pane lands to the ears, m.
 const AWAY: Vec3 = Vec3::new(0.0, 0.0, 1.0);
 
-/// When, s of the fixed steps, the pane broke.
+/// Time at which the pane broke, s of the fixed steps.
 #[derive(Resource, Default)]
 struct BrokeAt(Option<f64>);
 
@@ -53,7 +53,7 @@ fn fall(height: f32, listens: bool) -> (Vec<f32>, Vec<f32>, Option<f64>) {
     (pressures, samples, broke)
 }
 
-/// When the first sound comes, s after the first sample.
+/// Time of the first sound, s after the first sample.
 fn onset(pressures: &[f32]) -> Option<f64> {
     let first = pressures.iter().position(|&p| p != 0.0)?;
     Some((first / 2) as f64 / RATE)

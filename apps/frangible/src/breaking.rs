@@ -42,7 +42,7 @@ pub(crate) fn run(file: Option<&Path>, args: &BreakArgs) -> Result<(), Box<dyn E
     })
     .inspect_err(|_| {
         if !was_there {
-            // Only if it is empty, as it was made; whether that works changes nothing for the user.
+            // Removes the folder only if it is empty, as it was made. A failure changes nothing for the user.
             let _ = std::fs::remove_dir(&args.out);
         }
     })?;

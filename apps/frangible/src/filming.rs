@@ -104,7 +104,7 @@ fn interrupted() -> Result<Arc<AtomicBool>, Box<dyn Error>> {
     Ok(stop)
 }
 
-/// Takes a picture, and says whether more are wanted.
+/// Takes a picture. Returns false if no more are wanted.
 pub(crate) type Add<'a> = dyn FnMut(Picture) -> Result<bool, Box<dyn Error>> + 'a;
 
 #[cfg(not(feature = "view"))]
@@ -137,7 +137,7 @@ fn drawer(args: &FilmArgs) -> Result<Box<Draw>, Box<dyn Error>> {
     }))
 }
 
-/// The scene, slowed down where it breaks; the camera goes along. Returns what it sounds like.
+/// Draws the scene, slowed down where it breaks; the camera goes along. Returns the sound.
 fn slow_motion(
     scene: &Scene,
     baked: &[BakedBody],

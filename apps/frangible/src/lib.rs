@@ -40,7 +40,7 @@ fn file_without_command(error: &clap::Error) -> Option<&str> {
     }
 }
 
-/// The command of the laboratory that does what a former command of this program did.
+/// Returns the command of `frangible-lab` that replaces a former command of this program.
 fn of_the_lab(words: &[String]) -> Option<String> {
     let [first, rest @ ..] = words else {
         return None;
@@ -58,8 +58,7 @@ fn of_the_lab(words: &[String]) -> Option<String> {
     Some(words.collect::<Vec<_>>().join(" "))
 }
 
-/// Does what the words of a command line say, the first of them the program's name. Returns what the process is to end with: 0, 1 after a
-/// failure, 2 where the words mean nothing.
+/// Runs a command line, whose first word is the program's name. Returns the exit status: 0, 1 after a failure, 2 if the words mean nothing.
 #[must_use]
 pub fn run(words: &[OsString]) -> u8 {
     let texts: Vec<String> = (words.iter().skip(1))

@@ -68,7 +68,7 @@ fn action(scene: &Scene) -> String {
     texts.collect::<Vec<_>>().join("; ")
 }
 
-/// A number with four digits at most: what was f32 before has many more.
+/// Formats a number with four digits at most. A number that was f32 has many more as f64.
 fn four_digits(value: f64) -> String {
     let rounded: Result<f64, _> = format!("{value:.3e}").parse();
     rounded.unwrap_or(value).to_string()

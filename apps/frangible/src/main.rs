@@ -1,4 +1,4 @@
-//! The program `frangible`; what it does is in the library beside it.
+//! The program `frangible`; its code is in the library beside it.
 
 use std::ffi::OsString;
 use std::process::ExitCode;

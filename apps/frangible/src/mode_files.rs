@@ -63,7 +63,7 @@ fn cell(asset: &Asset, mode: usize, rotation: Quat) -> frangible_draw::ModeCell 
     let largest = field.largest_displacement().max(f32::MIN_POSITIVE);
     let scale = EXAGGERATION * low.distance(high) / largest;
 
-    // Only what the surface uses: nodes inside would count for the scale of the colours.
+    // Only nodes of the surface: those inside would count for the scale of the colours.
     let mut place = vec![u32::MAX; nodes.len()];
     let (mut positions, mut stresses) = (Vec::new(), Vec::new());
     let mut triangles = Vec::with_capacity(asset.surface.triangles.len());

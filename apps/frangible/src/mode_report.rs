@@ -76,7 +76,7 @@ impl ModeReport {
         }
     }
 
-    /// For people: the first `listed` modes, and what the others span.
+    /// Table for people: the first `listed` modes, and the range of the others.
     pub(crate) fn table(&self, listed: usize) -> String {
         let mut text = String::new();
         let mut row = |name: &str, value: String| {

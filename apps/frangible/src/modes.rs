@@ -20,7 +20,7 @@ use frangible_recording::try_file;
 /// The most shapes that one sheet can show.
 const MOST_DRAWN: usize = 36;
 
-/// From the body towards the camera: high enough that plates are seen from above.
+/// Direction from the body towards the camera: high enough that plates are seen from above.
 const LOOK_FROM: Vec3 = Vec3::new(0.55, 0.7, 1.0);
 
 /// Stands a body up that its scene tilts or drops on its rim: shapes of revolution and ready solids have z up.

@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::io::{IsTerminal, stderr};
 use std::time::Instant;
 
-/// A line that says what is being done and how far it is.
+/// A progress line: the current step, and the share that is done.
 pub(crate) struct Bar {
     begun: Instant,
     /// The line as it stands there, without the time; none where nothing is shown.

@@ -6,7 +6,7 @@ use frangible::ImpactReport;
 use frangible_scenes::{BakedBody, BlowRecord, Run};
 use serde::Serialize;
 
-/// Everything a run has to tell. Of a scene with one body its figures stand beside the scene's, of several in a list.
+/// Report of a run. If the scene has one body, its figures stand beside the scene's; of several they stand in a list.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Report {
     pub(crate) scene: String,
@@ -96,7 +96,7 @@ pub(crate) struct Blow {
     pub(crate) broke: bool,
     pub(crate) approach_speed_m_s: f64,
     pub(crate) approach_energy_j: f64,
-    /// Strength over the stress or its bound, of what held.
+    /// Strength over the stress or its bound. Known of a body that held.
     pub(crate) margin: Option<f64>,
 }
 

@@ -1,4 +1,4 @@
-//! From the command line to a scene.
+//! Makes scenes from the command line.
 
 use std::error::Error;
 use std::path::Path;
@@ -13,13 +13,13 @@ use frangible_scenes::{
 use crate::args::{BakeArgs, BreakArgs, MeshArgs, ModesArgs, SceneArgs};
 use crate::support::parse_support;
 
-/// A scene, and what was taken for it without being asked for.
+/// A scene, with notes on the defaults that were chosen for it.
 pub(crate) struct Request {
     pub(crate) scene: Scene,
     pub(crate) notes: Vec<String>,
 }
 
-/// The scene to break, and what is to be made of it, every number checked.
+/// Scene to break, with the outputs to make, every number checked.
 pub(crate) fn break_of(file: Option<&Path>, args: &BreakArgs) -> Result<Request, Box<dyn Error>> {
     let mut request = scene_of(file, &args.scene)?;
     let wanted = &mut request.scene;
@@ -128,7 +128,7 @@ pub(crate) fn body_of(args: &BakeArgs) -> Result<Scene, Box<dyn Error>> {
     Ok(wanted)
 }
 
-/// The scene whose only body is to be looked at, every number checked.
+/// Scene whose only body is analysed, every number checked.
 pub(crate) fn body_with_modes(args: &ModesArgs) -> Result<Scene, Box<dyn Error>> {
     let mut wanted = opened(args.file.as_deref(), args.scene.as_deref())?;
     if wanted.bodies.len() != 1 {
@@ -215,7 +215,7 @@ fn refuse_baked(scene: &Scene, option: &str) -> Result<(), String> {
     }
 }
 
-/// Adds to what the scene holds.
+/// Adds to the scene's supports.
 fn set_supports(scene: &mut Scene, specs: &[String]) -> Result<(), String> {
     if specs.is_empty() {
         return Ok(());

@@ -19,7 +19,7 @@ pub(crate) fn soundtrack(
     let (rate, channels) = (sounded.config.rate, sounded.config.listener.channels);
     let frame_rate = f64::from(run.recording.frame_rate);
     let stands = film.stands_from();
-    // While the last picture stands, what rings rings on.
+    // While the last picture stands, ringing bodies ring on.
     let time = |at: f64| film.frame(at) / frame_rate + (at - stands).max(0.0);
     let count = (seconds * rate) as usize;
     let times: Vec<f64> = (0..=count).map(|i| time(i as f64 / rate) * rate).collect();
@@ -36,8 +36,9 @@ pub(crate) fn soundtrack(
     Ok(sounded)
 }
 
-/// A track as heard by a head that is over these places of it, in samples. Where it is faster than the track it hears the mean over its way, which
-/// keeps what is too fast for the film's samples out of it; where it is slower, the line between two samples; where it stands, nothing.
+/// Samples of a track as heard by a head that passes these places of it, in samples. Where the head is faster than the track it hears the mean over
+/// its way, which removes frequencies too high for the film's sample rate; where it is slower, a linear interpolation between two samples; where it
+/// stands, nothing.
 fn played(track: &[f32], places: &[f64]) -> Vec<f32> {
     let mut sums = vec![0.0_f64];
     for &sample in track {

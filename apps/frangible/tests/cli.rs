@@ -1,4 +1,4 @@
-//! The command line: what bad input is told, and what good input leaves behind.
+//! Tests of the command line: the messages for bad input, and the files left by good input.
 
 use std::fs;
 use std::process::{Command, Stdio};

@@ -1,4 +1,4 @@
-//! `frangible modes`: what it says of a body, what it writes, what it refuses.
+//! Tests of `frangible modes`: its report, its files, and its refusals.
 
 use std::fs;
 use std::process::Command;

@@ -1,5 +1,4 @@
-//! The window from end to end: opened on a display, given a script through the path a person's input takes, and looked at by
-//! what it saved.
+//! Tests the window from end to end: opened on a display, given a script through the path of a person's input, and judged by the files that it saved.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -117,7 +116,7 @@ fn display() -> Option<Display> {
     display
 }
 
-/// Runs `frangible view` in a folder, within the time limit: whether it went well, and what it said.
+/// Runs `frangible view` in a folder, within the time limit. Returns true if it succeeded, and its messages.
 fn view(display: &Display, folder: &Path, args: &[&str]) -> (bool, String) {
     let errors = folder.join("errors.txt");
     let mut program = Command::new(env!("CARGO_BIN_EXE_frangible"))

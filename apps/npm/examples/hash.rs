@@ -1,5 +1,5 @@
-//! Breaks the bodies that the package's test breaks, and writes the hashes of all numbers of the pieces, which the test compares with its
-//! own, and how long it took.
+//! Breaks the bodies that the package's test breaks. Writes the hashes of all numbers of the pieces, which the test compares with its own, and the
+//! time that it took.
 
 use std::path::Path;
 
@@ -33,7 +33,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for (name, row) in blows() {
         let asset = Asset::load(bodies.join(format!("{name}.frangible")))?;
         let kind = plain::kind(asset)?;
-        // The third, as in the test: a body's first break finds what its later ones know.
+        // The third outcome, as in the test: a body's first break computes data that its later ones reuse.
         let mut outcome = None;
         for _ in 0..3 {
             let body = kind.body(3);

@@ -45,7 +45,7 @@ impl Kind {
         Ok(Self(plain::kind(Asset::from_bytes(bytes)?)?))
     }
 
-    /// Name, material, mass, inertia, volume, strength, what holds it, mesh to draw and convex parts.
+    /// Name, material, mass, inertia, volume, strength, supports, mesh to draw and convex parts.
     pub fn about(&self) -> Object {
         let asset = self.0.asset();
         let object = Object::new();

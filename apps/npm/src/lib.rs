@@ -1,7 +1,7 @@
 //! Bodies that break for physical reasons, for JavaScript.
 //!
-//! [`plain`] is what the package can do, in plain numbers; it is the same on every machine. In a browser or in Node the module `bindings`
-//! gives it to the package's script, which is what its users meet: `package/index.d.ts` tells how.
+//! [`plain`] is the package's function in plain numbers; it is the same on every machine. In a browser or in Node the module `bindings` gives it to
+//! the package's script, which is the users' interface: `package/index.d.ts` describes it.
 
 #[cfg(target_arch = "wasm32")]
 pub mod bindings;

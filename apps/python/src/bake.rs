@@ -12,7 +12,7 @@ use pyo3::prelude::*;
 use crate::kind::Kind;
 use crate::{numbers, refused};
 
-/// A body, and what takes the mesh's places to its frame: a factor, then an offset, m.
+/// A body, and the transform from the mesh's positions to its frame: a factor, then an offset, m.
 type Baked<'py> = (Kind, f64, Bound<'py, PyArray1<f64>>);
 
 /// Bakes a mesh. `tell(stage, share)` is called meanwhile.
@@ -44,7 +44,7 @@ pub(crate) fn bake<'py>(
         .iter()
         .map(|text| frangible_cli::parse_support(text));
     let supports = held.collect::<Result<Vec<_>, _>>().map_err(refused)?;
-    // What the caller's function raised, or Ctrl-C.
+    // Exception of the caller's function, or Ctrl-C.
     let mut stopped: Option<PyErr> = None;
     let cancel = CancelToken::default();
     let done = py.detach(|| -> PyResult<_> {

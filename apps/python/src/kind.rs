@@ -1,4 +1,4 @@
-//! Bodies, and what blows do to them.
+//! Bodies, and the effects of blows on them.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -117,7 +117,7 @@ impl Kind {
         Ok(PyBytes::new(py, &kind.asset().to_bytes()))
     }
 
-    /// Name, material, mass, what its mesh is made of.
+    /// Name, material, mass, and data of its mesh.
     fn about<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let asset = self.asset();
         let about = PyDict::new(py);
@@ -219,7 +219,7 @@ impl Kind {
         self.hit(py, &rows, seed, &config)
     }
 
-    /// Strength over the largest stress at a weak point, every one of which is looked at.
+    /// Strength over the largest stress at a weak point. Every weak point is analysed.
     fn margin(
         &self,
         py: Python<'_>,

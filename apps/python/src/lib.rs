@@ -25,7 +25,7 @@ pub(crate) fn numbers<'py, T: Into<f64> + Copy>(
     PyArray1::from_vec(py, of.into_iter().map(Into::into).collect())
 }
 
-/// Does what the words of a command line say; returns the status to end with.
+/// Runs a command line. Returns the exit status.
 #[pyfunction]
 fn run(py: Python<'_>, words: Vec<OsString>) -> u8 {
     py.detach(|| frangible_cli::run(&words))

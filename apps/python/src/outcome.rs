@@ -39,7 +39,7 @@ impl Impact {
 }
 
 impl Impact {
-    /// When and where cracks start, or go on that were there before, in this order, and how many tetrahedra each cuts.
+    /// Time and place at which each crack starts, or at which an old one goes on, in the order of time, with the number of tetrahedra that it cuts.
     fn starts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
         let (mesh, origin) = (&self.body.asset().fracture, self.body.origin());
         let cracks = self.fracture.report.arrivals.iter();

@@ -84,7 +84,7 @@ impl LiveWorld {
         Ok(Self { live, reel })
     }
 
-    /// Steps until so many seconds have passed; returns how many pieces came of it.
+    /// Steps until so many seconds have passed. Returns the number of new pieces.
     fn advance(&mut self, py: Python<'_>, seconds: f64) -> PyResult<usize> {
         let end = self.live.time() + seconds;
         let mut pieces = 0;
@@ -152,7 +152,7 @@ impl LiveWorld {
         there.collect()
     }
 
-    /// Writes what happened so far as a GLB with an animation.
+    /// Writes the run so far as a GLB with an animation.
     fn export(
         &self,
         py: Python<'_>,

@@ -21,7 +21,7 @@ use crate::console;
 pub struct Bridge(Object);
 
 impl Bridge {
-    /// Finds it, and has panics and what is logged told; none on a page that is not ours.
+    /// Finds the object, and sends it panics and log messages. None on a page that is not ours.
     #[must_use]
     pub fn begin() -> Option<Self> {
         let bridge = Self::find()?;

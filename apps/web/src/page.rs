@@ -1,4 +1,4 @@
-//! The page: its commands in, what there is to see out.
+//! The page: commands in, state of the session out.
 
 use std::cell::RefCell;
 use std::pin::Pin;
@@ -103,7 +103,7 @@ fn give_functions(shared: &Rc<RefCell<Shared>>) {
 #[derive(Serialize)]
 struct State<'a> {
     scene: &'a str,
-    /// Commands carried out; all of them are, and what they began.
+    /// Commands carried out; `done` if all of them are, with all they began.
     commands: u64,
     done: bool,
     busy: bool,
@@ -115,7 +115,7 @@ struct State<'a> {
     paused: bool,
     whole: usize,
     pieces: usize,
-    /// The bits of where all things are, how they move and what they weigh: one number, which JavaScript has no type for.
+    /// Hash of the bits of all positions, motions and masses: one number, which JavaScript has no type for.
     fingerprint: String,
     triangles: usize,
     /// Duration of the last break, s: of the impact here, of the whole step in the next field.
@@ -176,7 +176,7 @@ impl Page for Around {
             std::mem::replace(&mut shared.frames, frames)
         };
         if before != frames {
-            // A page that does not care how many there are has no such function.
+            // A page that does not need the number of frames has no such function.
             let _ = self.bridge.call("drawn", &[(frames as f64).into()]);
         }
     }

@@ -14,7 +14,7 @@ const FLOOR: f32 = 60.0;
 /// Puts things into the scene.
 #[derive(SystemParam)]
 pub struct Props<'w, 's> {
-    /// For what is not here.
+    /// Commands for things that have no method here.
     pub commands: Commands<'w, 's>,
     /// Looks of all things.
     pub materials: Res<'w, Materials>,
@@ -46,7 +46,7 @@ impl Props<'_, '_> {
         ));
     }
 
-    /// A lath that is only seen: what is behind it holds.
+    /// A lath that is only seen: the thing behind it holds.
     pub fn lath(&mut self, size: Vec3, middle: Vec3, look: &MeshMaterial3d<StandardMaterial>) {
         self.commands.spawn((
             Mesh3d(self.meshes.add(Cuboid::from_size(size))),

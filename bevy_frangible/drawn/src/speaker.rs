@@ -11,7 +11,7 @@ use bevy_frangible::frangible_sound::Outlet;
 /// Samples that are taken from the queue at one time: 2.7 ms.
 const CHUNK: usize = 256;
 
-/// Plays what is heard.
+/// Plays the sound.
 pub(crate) fn play(app: &mut App) {
     app.add_audio_source::<Queue>().add_systems(Startup, start);
 }

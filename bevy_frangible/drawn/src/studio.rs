@@ -17,7 +17,7 @@ use half::f16;
 
 use crate::View;
 
-/// Pixels along an edge of the cube of the surroundings, and how often that is halved for rougher mirrors.
+/// Pixels along an edge of the cube of the surroundings, and number of times that it is halved for rougher mirrors.
 const EDGE: u32 = 128;
 const LEVELS: u32 = 7;
 

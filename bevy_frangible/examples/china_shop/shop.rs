@@ -1,4 +1,4 @@
-//! The shop: a thousand things on boards, how they are simulated, and the ball.
+//! The shop: a thousand things on boards, the settings of their simulation, and the ball.
 
 use std::sync::Arc;
 
@@ -14,7 +14,7 @@ use frangible_bake::{BakeSpec, Shape, bake};
 const RACKS: usize = 5;
 const BOARDS: usize = 5;
 const PLACES: [usize; 2] = [20, 2];
-/// From rack to rack, board to board and thing to thing, m.
+/// Distances between racks, boards and things, m.
 const RACK: f32 = 1.2;
 const BOARD: f32 = 0.4;
 const PLACE: f32 = 0.17;
@@ -41,7 +41,7 @@ pub struct Board(pub Vec3);
 #[allow(dead_code, reason = "only what draws it asks")]
 pub struct Ball(pub f32);
 
-/// Sets what hundreds of bodies need.
+/// Sets the options that a scene of hundreds of bodies needs.
 pub fn rules(app: &mut App, rules: Rules) {
     app.insert_resource(BreakAgain {
         model: rules
@@ -66,7 +66,7 @@ pub fn rules(app: &mut App, rules: Rules) {
     });
 }
 
-/// A kind of thing, and how far its centre of mass is above its foot, m.
+/// A kind of thing, and the height of its centre of mass above its foot, m.
 fn baked(name: &str, shape: Shape) -> Result<(FrangibleAsset, f32), Box<dyn std::error::Error>> {
     let spec = BakeSpec {
         modes: 40,

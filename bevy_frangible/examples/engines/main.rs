@@ -1,5 +1,5 @@
 //! Two physics engines play equal scenes: `cargo run --release --example engines [-- --write]` plays each with a hundred seeds in Rapier and in
-//! Avian, and prints a page of what came of them, or writes it to `docs/engines.md`.
+//! Avian, and prints a page of the outcomes, or writes it to `docs/engines.md`.
 
 mod in_avian;
 mod in_rapier;

@@ -28,7 +28,7 @@ fn shown((mean, error): (f64, f64)) -> String {
     }
 }
 
-/// A row: what it is, its value in both engines, and by how much Avian's is larger.
+/// A row: name of the quantity, its value in both engines, and the share by which Avian's is larger.
 fn row(out: &mut String, what: &str, played: &Played, of: impl Fn(&Outcome) -> Option<f64>) {
     let [rapier, avian] = [0, 1].map(|k: usize| {
         let values: Vec<f64> = played[k].iter().filter_map(&of).collect();

@@ -1,4 +1,4 @@
-//! Scenes that both engines play, and what is measured in them.
+//! Scenes that both engines play, and the measurements in them.
 
 use bevy_frangible::frangible::glam::{DVec3, Quat, Vec3};
 use bevy_frangible::frangible::{Breakable, Fracture, Material};
@@ -40,7 +40,7 @@ pub struct Striker {
     pub start: Start,
 }
 
-/// A body and what strikes it.
+/// A body and its striker.
 #[derive(Clone)]
 pub struct Scene {
     /// Name of the scene.
@@ -71,7 +71,7 @@ pub struct Outcome {
 pub struct Break {
     /// Number of pieces.
     pub pieces: usize,
-    /// From the beginning of the contact to the first crack, s.
+    /// Time from the beginning of the contact to the first crack, s.
     pub first_crack: f64,
     /// Energy of the cracks, J.
     pub cracks: f64,

@@ -84,7 +84,7 @@ impl Motions<'_, '_, '_> {
     }
 }
 
-/// Gives every body that was hit what came of it.
+/// Gives every body that was hit its outcome.
 pub(super) fn carry_out(
     mut commands: Commands,
     verdicts: Res<Verdicts>,
@@ -104,7 +104,7 @@ pub(super) fn carry_out(
     let touches = Touches::new(verdicts.iter().filter(inside));
     verdicts.sort_by_key(|v| (v.body, !broke(v), v.striker));
     verdicts.dedup_by_key(|v| v.body);
-    // Two that break each other find one force, but for what else each meets and how it cracks: the mean of their answers counts.
+    // Two bodies that break each other would find one force, were it not for their other contacts and their cracks: the mean of their answers counts.
     let met: Vec<(Entity, Option<Entity>)> = (verdicts.iter())
         .filter(|v| broke(v))
         .map(|v| (v.body, v.striker))
@@ -153,7 +153,7 @@ pub(super) fn carry_out(
         let parts = motions.parts(striker);
         let mut others = motions.all(&parts);
         let mirrored = striker.is_some_and(|s| met.contains(&(s, Some(entity))));
-        // Of a blow that is past the whole body has what the engine gave it.
+        // A blow that the whole body has taken already has the engine's impulse.
         let share = match (late, mirrored) {
             (true, _) => 0.0,
             (false, true) => 0.5,

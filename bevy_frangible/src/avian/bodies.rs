@@ -14,7 +14,7 @@ use crate::{
     BreakFailed, Breakable, BreakableBody, Broke, Broken, DebrisBudget, FrangibleAsset, Pushed,
 };
 
-/// A body that is ready gets a collider and its mass; what the game has given it already stays.
+/// Gives a body that is ready a collider and its mass; components that the game has given it already stay.
 pub(super) fn give_collider(
     ready: On<Insert, BreakableBody>,
     bodies: Query<(
@@ -167,7 +167,7 @@ pub(super) fn miss_collider(removed: On<Remove, Collider>, mut commands: Command
     });
 }
 
-/// A script's impulse moves what it struck.
+/// Moves the body or piece that a script's impulse struck.
 pub(super) fn push(
     pushed: On<Pushed>,
     mut moving: Query<

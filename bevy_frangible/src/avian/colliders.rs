@@ -44,8 +44,8 @@ pub(super) fn whole(baked: &Baked, (parts, points): (usize, usize)) -> Collider 
     compound(cells, parts, points).unwrap_or_else(|| bounding_box(baked.surface_positions()))
 }
 
-/// The collider of a fragment: one hull, the hulls of its shares of the cells, or a box. One that is held has its own surface: what is left of
-/// a pane in its frame has a hole, which few hulls would close, and as nothing moves it, it never meets others of its kind.
+/// The collider of a fragment: one hull, the hulls of its shares of the cells, or a box. One that is held has its own surface: the rest of a pane in
+/// its frame has a hole, which few hulls would close, and as nothing moves it, it never meets others of its kind.
 pub(super) fn of_fragment(fragment: &Fragment, detail: &ColliderDetail) -> Collider {
     if fragment.supported
         && let Some(surface) = surface(&fragment.mesh)

@@ -1,4 +1,4 @@
-//! Pieces that rest, pieces that go, and how long steps take with them.
+//! Pieces that rest, pieces that go, and the time of steps with them.
 
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -13,11 +13,11 @@ use crate::{AtRest, BreakableBody, Broken, DebrisBudget, FragmentOf};
 /// Steps over which their time is averaged.
 const STEPS: u32 = 32;
 
-/// When a piece fell asleep, in the time of the fixed steps.
+/// Time at which a piece fell asleep, in the time of the fixed steps.
 #[derive(Component)]
 pub(super) struct AsleepSince(Duration);
 
-/// When the step began.
+/// Time at which the step began.
 #[derive(Resource)]
 pub(super) struct Began(Instant);
 
@@ -36,7 +36,7 @@ pub(super) fn stop_clock(began: Res<Began>, mut heap: ResMut<Heap>) {
     heap.step_time = mean - mean / STEPS + began.0.elapsed() / STEPS;
 }
 
-/// Notes since when pieces sleep, and does with those that have slept for long what the budget says.
+/// Notes the time since which pieces sleep, and treats those that have slept for long as the budget says.
 pub(super) fn rest(
     pieces: Query<
         (

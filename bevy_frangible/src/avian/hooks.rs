@@ -85,7 +85,7 @@ impl<Inner: SystemParam + 'static> FrangibleHooks<'_, '_, Inner> {
         }
     }
 
-    /// Puts the first body of a pair to the fracture, or the second one; whether it breaks.
+    /// Computes the fracture of the first body of a pair, or of the second one if `flipped`. Returns true if it breaks.
     fn ask(&self, pair: &ContactPair, flipped: bool) -> bool {
         let (body, other, collider) = match flipped {
             false => (pair.body1, pair.body2, pair.collider2),
@@ -155,7 +155,7 @@ impl<Inner: SystemParam + 'static> FrangibleHooks<'_, '_, Inner> {
         let config = &self.config.0;
         let inside = *self.breaking == Breaking::InsideStep;
         let met = other.and_then(|e| self.bodies.get(e).ok());
-        // What breaks inside the step is asked by the blow itself, unless the other body's vibration has to be found first.
+        // Where bodies break inside the step, the impact itself decides, unless the other body's vibration has to be found first.
         let asked = !inside || met.is_some();
         let harmless = asked && is_harmless(&body.0, &contacts, config);
         if let Some((other, there)) = met
@@ -230,7 +230,7 @@ fn vibrate(
         normal: into(to_other * -touch.normal),
         ..contact.clone()
     };
-    // What it refuses is wrong with the contact itself, which the impact says.
+    // An error here is one of the contact itself, which the impact reports.
     if config.duration == DurationModel::Integrated
         && let Ok(flexible) = Striker::flexible(other, &on_it, config)
     {

@@ -1,8 +1,8 @@
 //! Breaks after the step and within a budget of work, for scenes of hundreds of bodies.
 //!
-//! Hooks only take note of a blow that no quick bound refuses; the step stands. Bodies are judged in the order of their blows, on threads of
-//! their own, while steps go on, and so are their pieces' meshes and colliders made. Work is counted in tetrahedra, not in time, and what is
-//! not ready when it is due is waited for, so that the same bodies break in the same step on any machine.
+//! Hooks only take note of a blow that no quick bound refuses; the step stands. Bodies are judged in the order of their blows, on threads of their
+//! own, while steps go on, and so are their pieces' meshes and colliders made. Work is counted in tetrahedra, not in time. A step waits for work that
+//! is due and not ready, so that the same bodies break in the same step on any machine.
 
 use std::collections::VecDeque;
 use std::sync::PoisonError;
@@ -19,7 +19,7 @@ use crate::meshes::faces;
 use crate::work::{Promise, Workers};
 use crate::{BreakableBody, DebrisBudget, Fracturing};
 
-/// When a body that breaks gives way to its fragments.
+/// Time at which a body that breaks gives way to its fragments.
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Breaking {
     /// Inside the step, so that a ball goes on through the pane that it breaks.
@@ -200,7 +200,7 @@ pub(super) fn serve(
     let now = docket.steps;
     while let Some(case) = docket.cases.pop_front_if(|case| case.due <= now) {
         let body = case.blow.body;
-        // What is gone, or has cracked otherwise meanwhile, is not waited for.
+        // Nobody waits for a body that is gone, or has other cracks by now.
         if bodies.get(body).is_ok_and(|b| *b.0.state() == case.cracks) {
             let (judged, colliders) = case.judged.kept();
             molds.0.insert(body, colliders);

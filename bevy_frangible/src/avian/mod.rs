@@ -63,11 +63,11 @@ struct Verdict {
 
 /// State of a blow.
 enum Ruling {
-    /// It was judged inside the step; where the body broke, the solver has left the pair out.
+    /// Judged inside the step. If the body broke, the solver has left the pair out.
     Now(Judged),
-    /// It is to be judged after the step.
+    /// To be judged after the step.
     Waits,
-    /// It was judged after its step, in which the whole body took the blow.
+    /// Judged after its step, in which the whole body took the blow.
     Late(Judged),
 }
 

@@ -29,7 +29,7 @@ const PAUSE: u32 = 8;
 /// Forces at most: more are merged with their neighbours, since the quick bound looks at no more.
 const MOST_FORCES: usize = 16;
 
-/// A body that carries at most so much less than it could, by a bound that costs next to nothing, is not looked at closer.
+/// A body whose margin is at least this, by a bound that costs next to nothing, is not analysed further.
 const EASE: f64 = 1.5;
 
 /// Load that a breakable body carries.
@@ -44,7 +44,7 @@ pub struct Carries {
     over: u32,
     /// Looks until it is asked again.
     pause: u32,
-    /// Looks in a row at which the quick bound did not clear it: only a load that lasts is looked at closer.
+    /// Looks in a row at which the quick bound did not clear it: only a load that lasts is analysed further.
     hard: u32,
 }
 
@@ -118,7 +118,7 @@ fn merged(forces: Vec<Force>, apart: f32) -> Vec<Force> {
     kept
 }
 
-/// A breakable body, how it moves, and what it carries.
+/// A breakable body, its motion, and the load that it carries.
 type Bearing = (
     Entity,
     &'static mut BreakableBody,
@@ -178,7 +178,7 @@ pub(super) fn weigh(
 }
 
 impl Carries {
-    /// Looks at a load; what it did when it did something for long enough.
+    /// Checks a load. Returns its effect once it had one for long enough.
     fn look(
         &mut self,
         body: &BreakableBody,

@@ -9,7 +9,7 @@ const ONE_DIRECTION: f32 = 0.9;
 
 /// A point at which two bodies are about to touch.
 pub(super) struct FirstTouch {
-    /// From the centre of mass of the body that is asked, and of the other one, m, world axes.
+    /// Points of contact from the centre of mass of the body that is asked, and of the other one, m, world axes.
     pub(super) anchors: [Vec3; 2],
     /// Direction of the impulse on the body that is asked.
     pub(super) normal: Vec3,

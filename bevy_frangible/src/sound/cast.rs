@@ -103,7 +103,7 @@ impl Troupe {
         new
     }
 
-    /// Silences what is gone, and forgets it a little later. A body that broke was silenced by its break.
+    /// Silences things that are gone, and forgets them a little later. A body that broke was silenced by its break.
     pub(super) fn leave(&mut self, hearing: &mut Hearing, there: &Query<Has<Broken>>, now: f64) {
         let numbers = &mut self.numbers;
         self.things.retain(|&node, thing| {

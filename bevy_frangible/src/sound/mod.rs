@@ -20,14 +20,15 @@ use crate::{BreakableBody, Broke, Broken, Held};
 
 use cast::{Playing, Troupe};
 
-/// Makes what breaks heard where an entity has [`Ears`]. What touches and slides is heard in Avian's world; blows and cracks in any.
+/// Plugin for the sound of breaking bodies, which an entity with [`Ears`] hears. Touches and slides are heard in Avian's world; blows and cracks in
+/// any.
 #[derive(Clone, Debug)]
 pub struct FrangibleSoundPlugin {
     /// Samples per second. Default 48 000.
     pub rate: f64,
     /// Height, m, and material of a level floor, which reflects sound and is struck itself. Default stone at y = 0.
     pub floor: Option<(f32, Material)>,
-    /// Pressure that is played at full scale, Pa; what is louder than 0.7 of it is bent. Default 20.
+    /// Pressure that is played at full scale, Pa; above 0.7 of it the curve bends. Default 20.
     pub full_scale: f64,
 }
 
@@ -41,7 +42,7 @@ impl Default for FrangibleSoundPlugin {
     }
 }
 
-/// Who listens, usually the camera: its place, and its own x as the way to the right. Without such an entity nothing is heard.
+/// Listener, usually the camera: its position, and its own x as the direction to the right. Without such an entity nothing is heard.
 #[derive(Component, Clone, Copy, Debug, Default)]
 #[require(Transform)]
 pub struct Ears;
@@ -225,7 +226,7 @@ impl Heard {
         self.hearing.synth_mut().listen(now, listener)
     }
 
-    /// Tells the synthesiser what happened.
+    /// Passes the events to the synthesiser.
     fn take_in(&mut self, places: &TransformHelper) -> Result<(), SoundError> {
         let new = self.troupe.new_bodies();
         let cast = Playing {

@@ -27,7 +27,7 @@ type Moving = (
 /// Filter for things of a known material that neither break nor come of a break, such as a thrown ball.
 type Thrown = (Without<BreakableBody>, Without<FragmentOf>, Without<Broken>);
 
-/// Finds what came together and what slides in the step that was just taken.
+/// Finds the touches and slides of the step that was just taken.
 pub(super) fn touch(
     mut heard: ResMut<Heard>,
     collisions: Collisions,
@@ -78,7 +78,7 @@ fn radius(collider: Option<&Collider>, material: &Material, mass: f64) -> f64 {
     )
 }
 
-/// Who pushes whom and where; `None` where nobody pushes, or none of them sounds.
+/// Push between two bodies; `None` if nothing pushes, or none of them sounds.
 fn push(
     pair: &ContactPair,
     bodies: &Query<Moving>,
@@ -88,8 +88,7 @@ fn push(
         let points = manifold.points.iter();
         points.map(move |point| (manifold, point))
     });
-    // A sum of vectors: what is pushed from both sides goes nowhere. Avian counts each substep twice, once with its push-out and once
-    // without.
+    // A sum of vectors: pushes from opposite sides cancel. Avian counts each substep twice, once with its push-out and once without.
     let push: Vec3 = all
         .clone()
         .map(|(manifold, point)| manifold.normal * (0.5 * point.normal_impulse))

@@ -1,4 +1,4 @@
-//! Runs the program and looks at what it says.
+//! Runs the program and checks its messages.
 
 use std::fs;
 use std::path::{Path, PathBuf};

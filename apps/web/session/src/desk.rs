@@ -19,7 +19,7 @@ use wasm_bindgen::closure::Closure;
 
 use crate::folder::Folder;
 
-/// Samples per second, of which the browser makes what its loudspeaker wants.
+/// Samples per second; the browser resamples them for its loudspeaker.
 const RATE: f64 = 48_000.0;
 
 /// State that the three functions share.

@@ -18,7 +18,7 @@ const VIEW: View = View {
     steps: 76,
 };
 
-/// Width, height and thickness of the pane, how much of it is in the frame, and the height of its middle, m.
+/// Width, height and thickness of the pane, width of its edge in the frame, and height of its middle, m.
 const PANE: Vec3 = Vec3::new(1.0, 0.8, 0.004);
 const REBATE: f32 = 0.012;
 const MIDDLE: f32 = 1.5;

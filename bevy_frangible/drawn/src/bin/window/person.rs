@@ -83,7 +83,7 @@ fn look(
     camera.rotation = Quat::from_euler(EulerRot::YXZ, yaw - TURN * mouse.delta.x, pitch, 0.0);
 }
 
-/// The body slides along what it meets; the eyes go with it.
+/// The body slides along obstacles; the eyes go with it.
 fn walk(
     walker: Single<(Entity, &Collider, &mut Transform), With<Walker>>,
     mut camera: Single<&mut Transform, (With<Camera>, Without<Walker>)>,
