@@ -1,4 +1,4 @@
-//! All methods, one after another.
+//! Runs all methods, one after another.
 
 use web_time::Instant;
 
@@ -68,7 +68,7 @@ impl Options {
     }
 }
 
-/// Breaks the body by each of these methods. `before` is told of each of them as it begins.
+/// Breaks the body by each of these methods. Calls `before` with each of them as it begins.
 ///
 /// # Errors
 /// A piece of a broken body, contacts without an impulse or that the fracture model refuses, an option out of its range.
@@ -125,7 +125,7 @@ fn pieces_of_ours(hit: Hit<'_>, known: &[Broken]) -> Result<usize, CompareError>
     }
 }
 
-/// A result in which every method fills in what it knows.
+/// An empty result; every method fills in its own numbers.
 fn empty() -> Broken {
     Broken {
         method: Method::Ours,

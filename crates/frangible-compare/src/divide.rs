@@ -30,8 +30,8 @@ pub struct Border {
 }
 
 impl<'a> Division<'a> {
-    /// With a label for each node of the fracture mesh. `at` gives the place where an edge between two labels is cut, from
-    /// its lower node (0) to its higher (1); cuts stay 0.02 away from the ends, so that no triangle has zero area.
+    /// Divides a body with a label for each node of the fracture mesh. `at` gives the place where an edge between two labels is cut, from its lower
+    /// node (0) to its higher (1); cuts stay 0.02 away from the ends, so that no triangle has zero area.
     ///
     /// Cracks that the body has already are left out of account.
     ///
@@ -95,8 +95,8 @@ impl<'a> Division<'a> {
         borders(self.body, self.of_node.clone(), &self.cuts)
     }
 
-    /// With other labels in place of these: labels that get the same one are no longer parted. Where two labels were one there is
-    /// no cut, so they cannot be parted in this way.
+    /// Replaces the labels. Labels that get the same one are no longer separated. Within a former label there is no cut, so it cannot be divided in
+    /// this way.
     #[must_use]
     pub fn relabelled(mut self, new: impl Fn(u32) -> u32) -> Self {
         self.of_node.iter_mut().for_each(|l| *l = new(*l));
@@ -106,8 +106,8 @@ impl<'a> Division<'a> {
         self
     }
 
-    /// The pieces, largest first, and what parts them, `between` being places in that list. Parts of a label that do not hang
-    /// together are pieces of their own; what is smaller than `crumb_share` of the body's volume
+    /// The pieces, largest first, and the cuts between them, `between` being places in that list. Parts of a label that do not hang together are
+    /// pieces of their own; one smaller than `crumb_share` of the body's volume
     /// ([`FractureConfig::crumb_share`](frangible::FractureConfig::crumb_share)) stays with a neighbour.
     #[must_use]
     pub fn pieces(self, crumb_share: f64) -> (Vec<Fragment>, Vec<Border>) {

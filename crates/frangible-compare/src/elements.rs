@@ -23,7 +23,7 @@ use crate::hit::Hit;
 use crate::moment::{Moment, Wave};
 use crate::plane_crack::{Faces, PlaneCrack};
 
-/// Pieces along element boundaries, and what they cost.
+/// Pieces along element boundaries, and their cost.
 pub(crate) struct Separated {
     /// Largest first; one where it held.
     pub(crate) fragments: Vec<Fragment>,

@@ -105,7 +105,7 @@ fn join(cells: usize, mut seams: Vec<Seam>, budget: f64) -> Vec<u32> {
         grow(&mut cell, seam);
     }
     loop {
-        // What lies within one piece parts nothing.
+        // A border within one piece separates nothing.
         seams.retain(|seam| {
             let [a, b] = seam.between.map(|c| cell[c as usize]);
             a != b

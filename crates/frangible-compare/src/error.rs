@@ -3,7 +3,7 @@
 use frangible::InputError;
 use thiserror::Error;
 
-/// Why an impact cannot be compared.
+/// Error that keeps an impact from being compared.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum CompareError {

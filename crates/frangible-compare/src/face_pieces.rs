@@ -9,8 +9,8 @@ use frangible::{Body, Fragment, TriMesh};
 
 use crate::plane_crack::{Faces, face, face_area};
 
-/// Tetrahedra that hang together over closed faces, largest first. What is smaller than `crumb_share` of the body's volume
-/// stays with the neighbour it shares most area with, as in ours.
+/// Tetrahedra that are connected over closed faces, largest first. A piece smaller than `crumb_share` of the body's volume stays with the neighbour
+/// it shares most area with, as in ours.
 pub(crate) fn face_pieces(body: &Body, faces: &Faces<'_>, crumb_share: f64) -> Vec<Fragment> {
     let mesh: &TetMesh = &body.asset().fracture;
     let (mut piece_of, mut volumes) = components(mesh, faces);
@@ -93,7 +93,7 @@ fn absorb_crumbs(mesh: &TetMesh, of_tet: &mut [u32], volumes: &mut [f64], share:
     }
 }
 
-/// For each component its neighbours and the area they have in common, m².
+/// Neighbours of each component, with the area that they share with it, m².
 fn shared_areas(mesh: &TetMesh, of_tet: &[u32]) -> Vec<BTreeMap<u32, f64>> {
     let count = of_tet.iter().max().map_or(0, |&most| most as usize + 1);
     let mut shared = vec![BTreeMap::new(); count];

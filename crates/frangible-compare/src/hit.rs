@@ -5,7 +5,7 @@ use frangible::{Body, Contact, FractureConfig};
 
 use crate::error::CompareError;
 
-/// A whole body and what hits it.
+/// A whole body and its contacts.
 #[derive(Clone, Copy, Debug)]
 pub struct Hit<'a> {
     /// The body before it. Cracks that it has already are felt by [`Method::Ours`](crate::Method::Ours) and

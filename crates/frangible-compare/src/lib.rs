@@ -11,8 +11,8 @@
 //! | [`Method::EnergyVoronoi`] | the vibration at its most strained moment | Voronoi cells, drawn by strain energy, apart where that pays |
 //! | [`Method::Voronoi`] | nowhere | Voronoi cells, densest around the impact |
 //!
-//! Each method's module says what it does, after whom, and what it leaves out. The pieces of all of them tile the body, and the
-//! same input and seed give the same bits.
+//! Each method's module describes the method, its source, and its simplifications. The pieces of all of them tile the body, and the same input and
+//! seed give the same bits.
 
 mod compare;
 mod divide;

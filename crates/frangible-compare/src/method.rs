@@ -21,7 +21,7 @@ pub enum Method {
 }
 
 impl Method {
-    /// All of them, in the order in which they are shown.
+    /// All methods, in the order in which they are shown.
     pub const ALL: [Self; 5] = [
         Self::Ours,
         Self::QuasiStatic,

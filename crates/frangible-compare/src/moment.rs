@@ -19,7 +19,7 @@ pub(crate) struct Wave<'a> {
     motion: Motion,
     /// Surface triangles under the contacts.
     pressed: Vec<u32>,
-    /// For stress at the middles of tetrahedra rather than at the flaws on their faces.
+    /// Configuration for stress at the middles of tetrahedra rather than at the flaws on their faces.
     inside: FractureConfig,
 }
 
@@ -107,7 +107,7 @@ impl<'a> Wave<'a> {
 }
 
 impl Moment<'_> {
-    /// At the middle of a tetrahedron.
+    /// Stress at the middle of a tetrahedron.
     pub(crate) fn inside(&mut self, tet: u32) -> StressState {
         let inside = &self.wave.inside;
         self.state(tet, inside)

@@ -34,11 +34,11 @@ impl PlaneCrack {
     }
 }
 
-/// The faces of a mesh, closed or open, and what opening them cost.
+/// The faces of a mesh, closed or open, and the energy spent on opening them.
 pub(crate) struct Faces<'a> {
     body: &'a Body,
     mesh: &'a TetMesh,
-    /// For each face of each tetrahedron the crack that opened it.
+    /// Crack that opened each face of each tetrahedron.
     opened_by: Vec<[u32; 4]>,
     /// Round in which each tetrahedron was met last.
     met: Vec<u32>,
@@ -52,7 +52,7 @@ pub(crate) struct Faces<'a> {
 }
 
 impl<'a> Faces<'a> {
-    /// All closed. `budget`: energy that all cracks together may spend, J.
+    /// Starts with all faces closed. `budget`: energy that all cracks together may spend, J.
     pub(crate) fn new(body: &'a Body, budget: f64) -> Self {
         let mesh: &TetMesh = &body.asset().fracture;
         Self {

@@ -39,7 +39,7 @@ pub(crate) fn quasi_static(hit: Hit<'_>, step: f64) -> Result<Outcome, CompareEr
     Ok(follow(hit.body, &motion, &pressed, time_step, hit.config)?)
 }
 
-/// Time step, s, in which a crack runs a mean edge of the mesh, and how many of them the load lasts.
+/// Time step, s, in which a crack runs a mean edge of the mesh, and number of steps for which the load lasts.
 fn steps(hit: Hit<'_>, lasts: f64) -> (f64, usize) {
     let asset = hit.body.asset();
     let CrackTiming::TimeResolved { speed, .. } = hit.config.timing else {

@@ -4,7 +4,7 @@ use frangible::{Fragment, TriMesh};
 
 use crate::method::Method;
 
-/// The pieces of a method, and what they cost.
+/// The pieces of a method, and their cost.
 #[derive(Clone, Debug)]
 pub struct Broken {
     /// The method.

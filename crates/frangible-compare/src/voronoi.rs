@@ -1,4 +1,4 @@
-//! Voronoi cells around the impact point: what most tools for artists do. No stress, no energy, no material.
+//! Voronoi cells around the impact point, as in most tools for artists. No stress, no energy, no material.
 //!
 //! Sites are drawn in the body with a density that falls as exp(−d / ℓ) with the distance d from the impact point, ℓ a quarter of
 //! the largest distance there is. Their number is the caller's; [`compare`](crate::compare) takes as many as ours has pieces, two

@@ -12,8 +12,8 @@ use crate::DrawError;
 /// Complaints of the driver that are written down; more say nothing new.
 const MOST_COMPLAINTS: u32 = 20;
 
-/// Finds what to draw with, WebGPU or else WebGL 2, for the canvas of this identifier, and opens a window in it. `smooth` edges
-/// take a software renderer most of the time.
+/// Opens a window in the canvas of this identifier, drawn by WebGPU or else by WebGL 2. With `smooth` edges a software renderer takes most of its
+/// time for them.
 ///
 /// # Errors
 /// No such canvas; neither WebGPU nor WebGL 2.
@@ -64,8 +64,8 @@ pub async fn open_canvas(id: &str, smooth: bool) -> Result<Window, DrawError> {
     Ok(window)
 }
 
-/// Writes complaints down instead of ending the program: through WebGL 2 the renderer prepares points and wireframes, which need
-/// storage buffers, whether they are drawn or not.
+/// Logs complaints instead of ending the program: through WebGL 2 the renderer prepares points and wireframes, which need storage buffers, even if
+/// they are not drawn.
 fn note_complaints(device: &wgpu::Device) {
     let count = AtomicU32::new(0);
     device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {

@@ -1,4 +1,4 @@
-//! From a number to a colour.
+//! Converts numbers to colours.
 
 /// Viridis (Smith and van der Walt, CC0) at eighths, sRGB: its lightness rises evenly, also for those who tell few
 /// colours apart, and in grey.
@@ -14,7 +14,7 @@ const VIRIDIS: [[u8; 3]; 9] = [
     [253, 231, 37],
 ];
 
-/// The colour of a value of 0..=1, sRGB; what lies outside has the colour of the nearer end.
+/// The colour of a value of 0..=1, sRGB. A value outside has the colour of the nearer end.
 pub(crate) fn color_of(value: f32) -> [u8; 3] {
     let at = value.clamp(0.0, 1.0) * (VIRIDIS.len() - 1) as f32;
     let below = (at as usize).min(VIRIDIS.len() - 2);

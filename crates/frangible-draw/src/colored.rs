@@ -1,4 +1,4 @@
-//! A surface coloured by a number, with a bar that says what the colours mean.
+//! A surface coloured by a number, with a bar that explains the colours.
 
 use frangible_photo::{PhotoError, Picture};
 use frangible_recording::View;

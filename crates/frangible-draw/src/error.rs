@@ -1,9 +1,9 @@
-//! Why there is no picture.
+//! Errors of drawing.
 
 use frangible_photo::PhotoError;
 use thiserror::Error;
 
-/// Why a picture could not be drawn.
+/// Error that keeps a picture from being drawn.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum DrawError {

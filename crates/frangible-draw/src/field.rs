@@ -43,7 +43,7 @@ const CREASE: f32 = 0.82;
 /// Colours in the palette's texture, so that they are blended along the map and not across it.
 const SHADES: usize = 256;
 
-/// Width of a line, and how far it stands out from the surface, over the height of what is seen.
+/// Width of a line, and its distance from the surface, over the height of the view.
 const LINE: [f32; 2] = [0.005, 0.0015];
 
 /// Half of a colour shines by itself, whatever the light: shading must not be taken for a value.

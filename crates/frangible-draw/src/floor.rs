@@ -36,7 +36,7 @@ pub(crate) fn add_floor(scene: &mut SceneNode3d, floor: Laid<'_>) -> SceneNode3d
         shadow,
         ..
     } = floor;
-    // What stands on the floor must not flicker with it.
+    // Lowered a little, so that it does not flicker with the lower faces of things on it.
     let height = height - 0.003;
     // Nine fields, the shadow's square in the middle; around it the texture's
     // border, plain floor, goes on.

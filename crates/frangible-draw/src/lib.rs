@@ -4,10 +4,9 @@
 //! `frangible_photo` takes to follow light, [`mode_sheet`] shapes of vibration, coloured by a number.
 //! [`LiveStage`] draws the same stage into a window, over and over.
 //!
-//! Drawing takes a graphics driver but no display: a software driver such as
-//! Mesa's lavapipe will do. [`has_adapter`] tells whether there is one; without
-//! it everything here returns [`DrawError::NoAdapter`]. On one machine the same
-//! recording gives the same picture. In a browser there is only the stage in a window.
+//! Drawing takes a graphics driver but no display: a software driver such as Mesa's lavapipe will do. [`has_adapter`] returns true if there is one;
+//! without it everything here returns [`DrawError::NoAdapter`]. On one machine the same recording gives the same picture. In a browser there is only
+//! the stage in a window.
 
 // What only pictures use.
 #![cfg_attr(target_family = "wasm", allow(dead_code))]

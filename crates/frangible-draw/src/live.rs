@@ -39,7 +39,7 @@ pub struct LiveMesh<'a> {
     pub positions: &'a [Vec3],
     /// Unit normals, one per vertex.
     pub normals: &'a [Vec3],
-    /// For [`Looks::Values`]: a number of 0..=1 per vertex.
+    /// Number of 0..=1 for each vertex, for [`Looks::Values`].
     pub values: &'a [f32],
     /// Vertices of each triangle.
     pub faces: &'a Arc<Vec<[u32; 3]>>,
@@ -68,7 +68,7 @@ pub struct LiveStage {
     solid: bool,
 }
 
-/// From the world to the stage, for those who have no stage at hand.
+/// Transform from the world to the stage, for code that has no stage at hand.
 #[derive(Clone, Copy)]
 pub struct Place {
     units: StageUnits,
@@ -111,7 +111,7 @@ impl LiveStage {
         &mut self.scene
     }
 
-    /// The view in stage units, the window set for what is on the stage; the haze keeps its distance from what is looked at.
+    /// Sets the window for the contents of the stage, and returns the view in stage units. The haze keeps its distance from the view's target.
     pub fn look(&self, window: &mut Window, view: &View) -> View {
         // As in the pictures: a map gives glass the shadow of clay, and colours that stand for numbers want none.
         window.set_shadows_enabled(self.solid);
@@ -225,7 +225,7 @@ impl LiveStage {
         }
     }
 
-    /// Number of draw calls in a frame: things and floor, without what is written over them.
+    /// Number of draw calls in a frame: things and floor, without the text over them.
     #[must_use]
     pub fn draw_calls(&self) -> usize {
         self.actors.len() + usize::from(self.floor.is_some())

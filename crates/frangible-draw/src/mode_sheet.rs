@@ -14,7 +14,7 @@ use crate::renderer::{Label, Shot, Subject, draw};
 /// A shape of vibration to draw.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ModeCell {
-    /// Vertices, moved as far as they are to be drawn, m.
+    /// Vertices, displaced as they are to be drawn, m.
     pub positions: Vec<Vec3>,
     /// Vertices of each triangle, counter-clockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
@@ -67,7 +67,7 @@ const HEADING: f32 = CAPTION + NOTE + 16.0;
 const MARGIN: f32 = 14.0;
 /// Left, top, width and height of the colour bar in the legend, pixels.
 const BAR: [u32; 4] = [34, 18, 260, 20];
-/// From here on the lines of the legend stand beside the bar, and not below it, pixels.
+/// Width from which the lines of the legend stand beside the bar, and not below it, pixels.
 const BESIDE: u32 = 980;
 
 /// Draws the shapes row by row, all from one side and to one scale, and below them a bar of the colours from 0 to 1.
@@ -127,7 +127,7 @@ fn check(number: usize, cell: &ModeCell) -> Result<(), DrawError> {
     check_values(number, &cell.positions, &cell.triangles, &cell.values)
 }
 
-/// Refuses what does not fit together, of the shape with this number, from 0.
+/// Refuses lists that do not fit together, of the shape with this number, from 0.
 pub(crate) fn check_values(
     number: usize,
     positions: &[Vec3],
@@ -158,7 +158,7 @@ pub(crate) fn check_values(
     Ok(())
 }
 
-/// The view in which all shapes fill what the text leaves of a cell.
+/// View in which all shapes fill the part of a cell that the text leaves free.
 fn fit(cells: &[ModeCell], options: &ModeSheetOptions) -> View {
     let backward = options.look_from.normalize_or(Vec3::Z);
     let right = options.up.cross(backward).normalize_or(Vec3::X);
@@ -182,7 +182,7 @@ fn fit(cells: &[ModeCell], options: &ModeSheetOptions) -> View {
     let vertical_fov = 0.4_f32;
     let half_height = 0.5 * height * scale;
     let middle = 0.5 * (low + high) + Vec3::Y * (0.5 * (HEADING - MARGIN) * scale);
-    // The scale holds in the plane half way to the nearest point: what is closer looks larger.
+    // The scale holds in the plane half way to the nearest point: closer parts look larger.
     let distance = half_height / (0.5 * vertical_fov).tan() + 0.5 * half.z;
     let target = right * middle.x + up * middle.y + backward * middle.z;
     View {

@@ -13,8 +13,7 @@ const LARGEST: u32 = 4096;
 
 /// Draws frames of one size by the graphics driver, in a twentieth of the time that following light takes.
 ///
-/// All of a process share one renderer, which starts with the first
-/// frame; that one takes about a second longer than the others.
+/// All rasters of a process share one renderer, which starts with the first frame; that one takes about a second longer than the others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Raster {
     width: u32,
@@ -22,7 +21,7 @@ pub struct Raster {
 }
 
 impl Raster {
-    /// For pictures of `width` × `height` pixels.
+    /// Makes a raster for pictures of `width` × `height` pixels.
     ///
     /// # Errors
     ///

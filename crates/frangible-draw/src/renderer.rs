@@ -109,8 +109,8 @@ fn photograph(surface: &mut OffscreenSurface, shot: &Shot) -> RgbImage {
     if (surface.width(), surface.height()) != (width, height) {
         surface.resize(width, height);
     }
-    // The floor has its shadow without. On things, a map gives glass the shadow
-    // of clay, and costs most of the time. Colours that stand for numbers want none.
+    // The floor brings its own shadow. On things, a shadow map gives glass the shadow of clay, and costs most of the time. Colours that stand for
+    // numbers need no shadow.
     let shadows = match &shot.subject {
         Subject::Recording(scene) => !has_glass(scene),
         Subject::Field(_) => false,

@@ -16,7 +16,7 @@ use kiss3d::scene::{AlphaMode, SceneNode3d};
 
 use crate::floor::{Laid, add_floor, texels};
 
-/// Light layers: what breaks, and what it lies on.
+/// Light layers: things that break, and the floor.
 pub(crate) const THINGS: u32 = 1;
 pub(crate) const FLOOR: u32 = 2;
 
@@ -156,7 +156,7 @@ pub(crate) fn add_lights(scene: &mut SceneNode3d, view: &View) {
                 .with_intensity(1.45)
                 .with_layers(THINGS),
         )
-        // A light shines along −z, and the z axis is what gets aimed.
+        // A light shines along −z, and its z axis is what is aimed.
         .reorient(key, 2.0 * key, key.cross(Vec3::Y).normalize());
     let fill = 4.0 * right + 2.0 * Vec3::Y + 2.5 * backward;
     let rim = 2.0 * right + 2.0 * Vec3::Y - 5.0 * backward;

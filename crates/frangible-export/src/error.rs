@@ -1,9 +1,9 @@
-//! Why a file cannot be made.
+//! Errors of export.
 
 use frangible_recording::RecordingError;
 use thiserror::Error;
 
-/// Why an export failed.
+/// Error that keeps a file from being made.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ExportError {

@@ -1,4 +1,4 @@
-//! Files of what broke, for other programs.
+//! Writes broken bodies to files for other programs.
 //!
 //! * [`write_glb`] turns a [`Recording`](frangible_recording::Recording) into one binary glTF 2.0 file that
 //!   browsers, Blender and game engines play. The same recording gives the

@@ -8,7 +8,7 @@ use glam::Vec3;
 
 use crate::ExportError;
 
-/// A mesh of one kind of elements, and what is known at its nodes.
+/// A mesh of one kind of elements, with data at its nodes.
 #[derive(Clone, Copy, Debug)]
 pub struct VtuMesh<'a> {
     /// Node positions, m.
@@ -115,7 +115,7 @@ pub fn write_vtu(mesh: &VtuMesh<'_>) -> Result<Vec<u8>, ExportError> {
 struct Appended(Vec<u8>);
 
 impl Appended {
-    /// Adds a list; the element that tells of it.
+    /// Adds a list. Returns the element that describes it.
     fn array<const N: usize>(
         &mut self,
         kind: &str,

@@ -1,4 +1,4 @@
-//! CPU or GPU: as told, or by measurement.
+//! Choice between CPU and GPU: as requested, or by measurement.
 
 use std::time::Instant;
 
@@ -11,7 +11,7 @@ use crate::error::GpuError;
 use crate::impacts::{Impact, begin};
 use crate::loaded::Loaded;
 
-/// Impacts that the two are compared with, at least; with more threads one for each, since they make ready what the GPU computes.
+/// Least number of impacts that the two are compared with. With more threads it is one for each, since they prepare the GPU's work.
 const TRIAL: usize = 4;
 
 /// Choice of the processor that computes the impacts of a [`Solver`]. Cracks and pieces are the same bits in any case.
@@ -219,7 +219,7 @@ fn measure(gpu: &Gpu, trial: &[Impact<'_>], config: &FractureConfig) -> Result<S
     })
 }
 
-/// The faster of two runs: what else the machine does only adds.
+/// Time of the faster of two runs: other load of the machine only adds to it.
 fn seconds(run: impl Fn() -> Result<(), GpuError>) -> Result<f64, GpuError> {
     let mut least = f64::INFINITY;
     for _ in 0..2 {

@@ -62,7 +62,7 @@ impl Clock {
         })
     }
 
-    /// Ends a submission: its times in a buffer, and how many bytes they are.
+    /// Ends a submission. Returns the buffer with its times, and their size, bytes.
     pub(crate) fn resolve(
         &mut self,
         device: &Device,

@@ -17,7 +17,7 @@ pub struct Gpu {
 }
 
 impl Gpu {
-    /// On the fastest adapter there is; one in software does where there is no other.
+    /// Opens the fastest adapter; one in software serves if there is no other.
     ///
     /// # Errors
     /// No adapter, or one below WebGPU's default limits.
@@ -48,7 +48,7 @@ impl Gpu {
                 label: Some("frangible"),
                 // Only to measure with.
                 required_features: adapter.features() & wgpu::Features::TIMESTAMP_QUERY,
-                // WebGPU's defaults: what works here works in a browser.
+                // WebGPU's defaults, so that it also works in a browser.
                 required_limits: wgpu::Limits::default(),
                 ..wgpu::DeviceDescriptor::default()
             })
@@ -88,7 +88,7 @@ impl Gpu {
             .unwrap_or_else(std::sync::PoisonError::into_inner)
     }
 
-    /// Runs something on the device; what it finds wrong there is an error.
+    /// Runs something on the device. A problem that the device finds, or a lack of its memory, is an error.
     pub(crate) fn checked<T>(
         &self,
         run: impl FnOnce() -> Result<T, GpuError>,

@@ -1,4 +1,4 @@
-//! Errors of the GPU path: each names what is wrong and how to mend it.
+//! Errors of the GPU path: each names the problem and its remedy.
 
 use frangible::InputError;
 use thiserror::Error;

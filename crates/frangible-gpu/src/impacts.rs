@@ -1,4 +1,4 @@
-//! Impacts in batches: which of them held, and what becomes of the others.
+//! Impacts in batches: which of them held, and the outcomes of the others.
 
 use frangible::internals::{Stage, Vibration};
 use frangible::{Body, Contact, FractureConfig, Outcome};
@@ -266,8 +266,8 @@ fn groups(impacts: &[Impact<'_>], begun: &[Stage], config: &FractureConfig) -> V
 /// limit.
 fn within_range(kind: &Loaded, vibration: &Vibration, config: &FractureConfig) -> bool {
     const MOST: f64 = 1e12;
-    // What follows the force, the near field of walls and the mean stress over a flaw only the CPU knows; and all modes that the GPU has must
-    // be followed.
+    // Integrated contact forces, the near field of walls and the mean stress over a flaw are known to the CPU only; and all modes that the GPU has
+    // must be followed.
     if !vibration.is_pulse() || config.sized_flaws || kind.asset().modes.residual_modes > 0 {
         return false;
     }

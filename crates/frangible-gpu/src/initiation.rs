@@ -39,8 +39,8 @@ pub struct Initiation {
     pub looked_at: LookedAt,
     /// Time steps of the impact.
     pub time_steps: usize,
-    /// Largest principal tension met, Pa, and the tetrahedron where. Where and when a bound stays below every strength is
-    /// not looked at, with [culling](frangible::FractureConfig::culling).
+    /// Largest principal tension met, Pa, and its tetrahedron. With [culling](frangible::FractureConfig::culling), tetrahedra and steps at which a
+    /// bound stays below every strength are left out.
     pub peak_stress: f32,
     /// See [`Self::peak_stress`].
     pub peak_tet: Option<u32>,
@@ -48,7 +48,7 @@ pub struct Initiation {
     pub peak_share: f32,
     /// See [`Self::peak_share`].
     pub most_strained: Option<u32>,
-    /// Largest bound of what was not looked at, Pa.
+    /// Largest bound of the parts that were left out, Pa.
     pub passed_over: f32,
     /// Largest bound of the whole body at a time step, Pa; 0 where the CPU computed all this.
     pub bound: f32,
@@ -120,7 +120,7 @@ impl Initiation {
         found
     }
 
-    /// From the words of `gather.wgsl` and the largest bounds of the steps that were passed over and of all, Pa.
+    /// Reads the words of `gather.wgsl`. `bounds`: largest bound of the steps that were passed over, and of all, Pa.
     pub(crate) fn read(words: &[u32], bounds: [f32; 2], body: &Body, time_steps: usize) -> Self {
         let [passed_over, bound] = bounds;
         let (header, list) = words.split_at(HEADER);

@@ -32,7 +32,7 @@ pub(crate) struct Buffers {
 }
 
 impl Loaded {
-    /// Without a GPU.
+    /// A kind that is loaded without a GPU.
     pub(crate) fn on_cpu(kind: &Breakable) -> Self {
         let (stress, gradient) = kind.stress_bounds().root(kind.asset().modes.count());
         Self {

@@ -99,7 +99,7 @@ mod tests {
 
     use super::*;
 
-    /// Without a device: WGSL that any WebGPU takes, within its default limits.
+    /// Checks without a device that the WGSL is valid for any WebGPU, within its default limits.
     #[test]
     fn shaders_are_valid_and_within_the_default_limits_of_webgpu() {
         for (name, text) in PASSES {

@@ -1,5 +1,5 @@
-//! Runs a wave. First the motion and its bound at every time step, which come back to say what has to be looked at; then
-//! all the rest in one submission.
+//! Runs a wave. First the motion and its bound at every time step, which the CPU reads to choose the steps to analyse; then all the rest in one
+//! submission.
 
 use std::sync::mpsc;
 
@@ -36,7 +36,7 @@ struct Chunk {
     jobs: (usize, usize, usize),
 }
 
-/// A pass, its slot of uniforms, its other buffers in their order, and how many workgroups.
+/// A pass, its slot of uniforms, its other buffers in their order, and its number of workgroups.
 struct Dispatch<'a> {
     pass: &'a Pass,
     slot: usize,
@@ -292,7 +292,7 @@ impl Gpu {
         pass.dispatch_workgroups(x, y, z);
     }
 
-    /// Submits what was encoded, waits, and brings back the first bytes of a buffer; and the times of the passes.
+    /// Submits the encoded commands, waits, and reads the first bytes of a buffer and the times of the passes.
     fn finish(
         &self,
         mut encoder: CommandEncoder,
@@ -314,7 +314,7 @@ impl Gpu {
         Ok(words)
     }
 
-    /// Submits what was encoded, waits, and brings back the first bytes of a buffer.
+    /// Submits the encoded commands, waits, and reads the first bytes of a buffer.
     fn read(
         &self,
         mut encoder: CommandEncoder,
@@ -348,7 +348,7 @@ impl Gpu {
     }
 }
 
-/// So many workgroups along the first two axes, in rows of [`ROW`] at most, and so many along the third.
+/// Splits a number of workgroups over the first two axes, in rows of [`ROW`] at most; `third` is the number along the third.
 fn rows_of(count: usize, third: usize) -> [usize; 3] {
     [count.min(ROW), count.div_ceil(ROW), third]
 }

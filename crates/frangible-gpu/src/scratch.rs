@@ -1,4 +1,4 @@
-//! Buffers that live from batch to batch, and how large they may be.
+//! Buffers that live from batch to batch, and their size limit.
 
 use wgpu::{Buffer, BufferUsages, Device, Queue};
 
@@ -23,7 +23,7 @@ pub(crate) struct Growing {
 }
 
 impl Growing {
-    /// The buffer, with room for so many bytes; what it held is lost when it grows.
+    /// The buffer, with room for so many bytes. Its contents are lost when it grows.
     pub(crate) fn room(&mut self, device: &Device, bytes: u64, usage: BufferUsages) -> &Buffer {
         let needed = bytes.max(16).next_multiple_of(16);
         let buffer = match self.buffer.take() {

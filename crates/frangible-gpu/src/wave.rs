@@ -52,10 +52,10 @@ pub(crate) struct Wave {
 pub(crate) struct Span {
     first_column: usize,
     steps: usize,
-    /// Its weak tetrahedra, once it is known whether it has a live column.
+    /// Its weak tetrahedra, once it is known that it has a live column.
     weak: usize,
     limit: f32,
-    /// Its first live column, once the bounds are known, and how many it has.
+    /// Its first live column, once the bounds are known, and the number of live columns.
     first_alive: usize,
     pub(crate) alive: usize,
     /// Largest bound of its other columns, Pa.
@@ -225,7 +225,7 @@ impl Wave {
         self.spans.iter().map(|s| s.weak).max().unwrap_or(0)
     }
 
-    /// Impacts with a live column in a range: the first, how many, and the most weak tetrahedra of one.
+    /// Impacts with a live column in a range: the first, their number, and the most weak tetrahedra of one.
     pub(crate) fn within(&self, first: usize, end: usize) -> (usize, usize, usize) {
         let from = self
             .spans

@@ -8,7 +8,7 @@ use frangible_gpu::{
     DOUBT, Exceedance, GpuError, Impact, Initiation, LIST, Verdict, initiation_on_cpu,
 };
 
-/// Every time step is looked at: peaks are peaks, not bounds.
+/// Analyses every time step: peaks are peaks, not bounds.
 fn without_culling(mut config: FractureConfig) -> FractureConfig {
     config.culling = false;
     config

@@ -1,4 +1,4 @@
-//! The GPU saves work; what breaks, and how, is the CPU's to the bit.
+//! The GPU saves work; breaks and pieces are the CPU's to the bit.
 
 use crate::common::{Numbers, cracks_and_pieces, gpu, kinds, uneven};
 use frangible::internals::{LookedAt, Stage, Vibration};

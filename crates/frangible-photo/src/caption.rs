@@ -9,8 +9,8 @@ use crate::Picture;
 /// Roboto, see `font/README.md`.
 const FONT: &[u8] = include_bytes!("../font/Roboto-Latin.ttf");
 
-/// Writes a line of text, its upper left corner at column `x` and row `y`; `height` is that of the line, pixels. What lies outside of the
-/// picture is left out.
+/// Writes a line of text, its upper left corner at column `x` and row `y`; `height` is that of the line, pixels. Parts outside of the picture are
+/// left out.
 pub(crate) fn write(
     picture: &mut Picture,
     text: &str,

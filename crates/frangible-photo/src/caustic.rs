@@ -8,7 +8,7 @@ use crate::photon::Photon;
 use crate::random::{Random, disc_axes, hash};
 use crate::set::Set;
 
-/// Paths from the lamp, and how many are followed together.
+/// Paths from the lamp, and number of paths that are followed together.
 const PATHS: u32 = 60_000;
 const TOGETHER: u32 = 4_000;
 

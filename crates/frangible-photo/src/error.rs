@@ -1,11 +1,11 @@
-//! Why there is no picture.
+//! Errors of pictures and films.
 
 use std::path::PathBuf;
 
 use frangible_recording::{RecordingError, WriteError};
 use thiserror::Error;
 
-/// Why a picture or a film could not be made.
+/// Error that keeps a picture or a film from being made.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum PhotoError {
@@ -35,7 +35,7 @@ pub enum PhotoError {
     /// A sheet without a cell.
     #[error("the sheet has no cell; give it at least one frame and one column")]
     EmptySheet,
-    /// The caller's `go_on` said no.
+    /// The caller's `go_on` returned false.
     #[error("the picture was given up")]
     Cancelled,
     /// A file or folder that cannot be made.
@@ -45,7 +45,7 @@ pub enum PhotoError {
         path: PathBuf,
         /// Made, written.
         doing: &'static str,
-        /// Why not.
+        /// Error of the system.
         source: std::io::Error,
     },
     /// A file that cannot be written.

@@ -1,4 +1,4 @@
-//! From light to the colours of the picture.
+//! Converts light to the colours of the picture.
 
 use frangible_recording::glam::Vec3A;
 

@@ -12,7 +12,7 @@ use crate::ffmpeg::Ffmpeg;
 use crate::webp::{WEBP_QUALITY, WebP};
 use crate::{PhotoError, Picture, encode_png_within};
 
-/// From 1, the best colours, to 30, the fastest.
+/// Speed of the GIF encoder, from 1, the best colours, to 30, the fastest.
 const GIF_SPEED: i32 = 10;
 
 /// File format of a film.
@@ -43,8 +43,7 @@ impl FilmFormat {
     }
 }
 
-/// A film that is being written. What is finished of it gets its name when [`FilmWriter::finish`] is called; dropped before that, it leaves
-/// no file, but for single pictures.
+/// A film that is being written. [`FilmWriter::finish`] gives it its name; dropped before that, it leaves no file, but for single pictures.
 pub struct FilmWriter {
     path: PathBuf,
     pictures: u32,
@@ -107,7 +106,7 @@ impl FilmWriter {
         })
     }
 
-    /// From 1 to 100, how much a WebP keeps of its pictures, default 75. Before the first picture.
+    /// Sets the quality of a WebP's pictures, from 1 to 100, default 75. Call this before the first picture.
     ///
     /// # Errors
     /// [`PhotoError::File`] where the encoder does not take it.

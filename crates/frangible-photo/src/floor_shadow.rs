@@ -28,7 +28,7 @@ pub struct Fineness {
 }
 
 impl Fineness {
-    /// For pictures.
+    /// Fineness for pictures.
     pub const STILL: Self = Self {
         key_points: 36,
         room_points: 72,
@@ -55,7 +55,7 @@ impl Fineness {
         room_share: 1.0,
         ..Self::STILL
     };
-    /// For what moves: a twentieth of the work.
+    /// Fineness for moving things: a twentieth of the work.
     pub const MOVING: Self = Self {
         key_points: 8,
         room_points: 12,
@@ -97,7 +97,7 @@ pub struct Casting {
     shadow: FloorShadow,
     outlines: Vec<Outline>,
     layer: Vec<f32>,
-    /// Those that have not cast theirs, the next one last.
+    /// Lamps that have not cast their shadows, the next one last.
     lamps: Vec<(Vec3, f32)>,
     smoothings: usize,
 }

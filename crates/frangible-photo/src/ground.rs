@@ -54,7 +54,7 @@ impl Ground {
         let key = key_light(&units.view(view));
         let cast = |casters: &[Caster], fineness| FloorShadow::cast(casters, height, key, fineness);
         let room = cast(&casters, Fineness::ROOM);
-        // What glass does with the lamp's light is followed path by path.
+        // The lamp's light through glass is followed path by path.
         let gathers = set.has_glass();
         let opaque: Vec<Caster> = casters
             .into_iter()
@@ -120,7 +120,7 @@ impl Ground {
     /// Fine and broad differences in the floor's brightness, about 1.
     fn grain(&self, place: Vec2, away: f32) -> f32 {
         let broad = self.broad.sample2((place * 0.9).to_array());
-        // What is finer than a pixel far off is left out there.
+        // Grain finer than a pixel is left out far off.
         let near = (1.4 - 0.28 * away).clamp(0.0, 1.0);
         let fine = if near > 0.0 {
             near * self.fine.sample2((place * 55.0).to_array())

@@ -9,12 +9,9 @@
 //! There is no graphics driver, no display and no thread but rayon's: the same
 //! recording gives the same picture on any number of threads.
 //!
-//! A photograph of glass lives by what rasters cannot do: light that is bent
-//! twice and shows the far side through the near one, cracks that gleam because
-//! light cannot leave the glass there, shards that see each other. So stills
-//! are traced path by path, with as many paths per pixel as its noise asks for.
-//! The floor's shadow is found exactly, with the light that glass gathers
-//! added, and costs nothing per path.
+//! A photograph of glass lives by effects that rasters lack: light that is bent twice and shows the far side through the near one, cracks that gleam
+//! because light cannot leave the glass there, shards that see each other. So stills are traced path by path, with as many paths per pixel as its
+//! noise asks for. The floor's shadow is found exactly, with the light that glass gathers added, and costs nothing per path.
 
 mod caption;
 mod caustic;

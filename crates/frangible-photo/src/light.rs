@@ -23,7 +23,7 @@ const WALL: Vec3A = Vec3A::new(0.150, 0.165, 0.190);
 /// Blur of the lamps in the light on matt faces, over their distance: few paths would find sharp lamps, and would leave specks.
 const MATT: f32 = 0.7;
 
-/// A lamp that is seen in what mirrors: a panel around a direction.
+/// A lamp that is seen in mirrors: a panel around a direction.
 struct Panel {
     toward: Vec3A,
     across: Vec3A,
@@ -33,7 +33,7 @@ struct Panel {
     light: Vec3A,
 }
 
-/// All that shines.
+/// All light sources.
 pub(crate) struct Lights {
     key: Vec3A,
     panels: [Panel; 3],

@@ -12,7 +12,7 @@ pub(crate) struct Look {
     pub(crate) metallic: f32,
     /// If true, light passes through and is bent.
     clear: bool,
-    /// Share of the light that passes a face of what is drawn with some opacity.
+    /// Share of the light that passes a face of a surface with some opacity.
     pub(crate) opacity: f32,
     pub(crate) ior: f32,
     /// Absorption of red, green and blue per stage unit of the body, as an exponent.
@@ -69,7 +69,7 @@ impl Look {
         self.clear
     }
 
-    /// Share of the lamp's light that a clear face lets through to what it shades.
+    /// Share of the lamp's light that passes a clear face on its way to a shaded point.
     pub(crate) fn passes(&self, cosine: f32) -> f32 {
         let reflected = 0.04 + 0.96 * (1.0 - cosine).clamp(0.0, 1.0).powi(5);
         (1.0 - reflected)

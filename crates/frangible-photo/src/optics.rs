@@ -65,7 +65,7 @@ pub(crate) fn at_glass(along: Vec3A, normal: Vec3A, ior: f32) -> (f32, Option<Ve
     (reflected, Some(bent.normalize()))
 }
 
-/// [`at_glass`] of a crack within glass: the air in it turns back what comes at a glance, and lets most of the rest go straight on.
+/// [`at_glass`] of a crack within glass: the air in it reflects light at grazing angles, and lets most of the rest go straight on.
 pub(crate) fn at_crack(along: Vec3A, normal: Vec3A, ior: f32) -> (f32, Option<Vec3A>) {
     let (reflected, bent) = at_glass(along, -facing(normal, along), ior);
     // Two faces, with all that goes to and fro between them.

@@ -13,7 +13,7 @@ const LONGEST: u32 = 10;
 /// Faces that a mirror image may meet.
 const MIRRORED: u32 = 3;
 
-/// Times that light may be scattered by matt faces; what would come after is taken from the room.
+/// Times that light may be scattered by matt faces; further light is taken from the room.
 const SCATTERINGS: u32 = 1;
 
 /// Share of the room's light that remains where a path ends among things.
@@ -109,7 +109,7 @@ impl Traced<'_> {
         self.matt_first(&ray, &met, random)
     }
 
-    /// The floor, where it is nearer than what was met: how far, and the light that it gives.
+    /// Distance and light of the floor, if it is nearer than the intersection.
     fn ground_before(&self, ray: &Ray, met: Option<&Met<'_>>) -> Option<(f32, Vec3A)> {
         let ground = self.set.ground.as_ref()?;
         let distance = ground.distance(ray.from, ray.along)?;
@@ -120,7 +120,7 @@ impl Traced<'_> {
         Some((distance, ground.light(at, ray.along)))
     }
 
-    /// A faint mirror image of what stands on the floor.
+    /// A faint mirror image of things on the floor.
     fn gloss_of_ground(&self, ray: &Ray, distance: f32, random: &mut Random) -> Vec3A {
         let at = ray.from + ray.along * distance;
         let Some(ground) = &self.set.ground else {
@@ -139,7 +139,7 @@ impl Traced<'_> {
             leaves: NONE,
         };
         match self.set.meet(at, along, NONE) {
-            // Only what stands there: the plain floor is as bright as it should be.
+            // Only things on the floor: the plain floor is as bright as it should be.
             Some(_) => share * (self.light(here, random, MIRRORED) - backdrop(along)),
             None => Vec3A::ZERO,
         }
@@ -248,7 +248,7 @@ impl Traced<'_> {
         }
         let along = outward(mirror(ray.along, normal), met.flat, ray.along);
         let here = at(met, along);
-        // Lamps are blurred as the roughness is; things are mirrored sharply, as only what is near is seen at all.
+        // Lamps are blurred as the roughness is; things are mirrored sharply, as only near ones are seen at all.
         let blur = roughness * roughness;
         let near = self.set.meet(here.from, along, here.leaves);
         let mirrored = match (self.ground_before(&here, near.as_ref()), near) {
@@ -294,7 +294,7 @@ impl Traced<'_> {
                 left *= (-look.swallows * met.distance).exp();
             }
             let skin = look.skin(met.own);
-            // Both the clouds and what lies behind them are seen; after another cloudy face one of the two, by chance.
+            // Both the clouds and the things behind them are seen; after another cloudy face one of the two, by chance.
             let cloud = match std::mem::replace(&mut last_was_cloudy, skin.cloud > 0.0) {
                 false => skin.cloud,
                 true => f32::from(random.next() < skin.cloud),

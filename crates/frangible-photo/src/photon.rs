@@ -53,7 +53,7 @@ impl Photon {
         let look = met.look;
         self.from = met.at;
         if !look.bends() {
-            // What is drawn with some opacity lets the rest through.
+            // A surface with some opacity lets the rest through.
             return (random.next() >= look.opacity).then_some(met.face);
         }
         if self.along.dot(met.flat) > 0.0 && !look.thin {

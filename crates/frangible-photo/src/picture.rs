@@ -71,7 +71,7 @@ impl Picture {
         self.bytes[at..at + 3].copy_from_slice(&color);
     }
 
-    /// Copies another picture into this one, its upper left corner to column `x` and row `y`; what would lie outside is left out.
+    /// Copies another picture into this one, its upper left corner to column `x` and row `y`. Parts outside are left out.
     pub fn paste(&mut self, other: &Self, x: u32, y: u32) {
         let columns = other.width.min(self.width.saturating_sub(x)) as usize;
         let rows = other.height.min(self.height.saturating_sub(y));

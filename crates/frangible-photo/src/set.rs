@@ -28,7 +28,7 @@ struct Triangle {
     look: usize,
 }
 
-/// Meeting of a ray with a face.
+/// Intersection of a ray with a face.
 pub(crate) struct Met<'a> {
     pub(crate) distance: f32,
     pub(crate) at: Vec3A,
@@ -117,7 +117,7 @@ impl Set {
         set
     }
 
-    /// First meeting of a ray with a face other than the one that it leaves.
+    /// First intersection of a ray with a face other than the one that it leaves.
     pub(crate) fn meet(&self, from: Vec3A, along: Vec3A, leaves: u32) -> Option<Met<'_>> {
         let mut found = None;
         self.tree.along(from, along, f32::MAX, |face, best| {

@@ -1,7 +1,6 @@
-//! The stage: what pictures have in common, however they are drawn.
+//! The stage: parts that all pictures have in common, however they are drawn.
 //!
-//! The stage has its own units: what the camera looks at lies at the origin and
-//! half the height of the picture there is 1. Lights, shadows and fog are so
+//! The stage has its own units: the view's target lies at the origin, and half the height of the picture there is 1. So lights, shadows and fog are
 //! set once, for a thimble and for a column.
 
 use frangible_recording::glam::Vec3;
@@ -55,7 +54,7 @@ pub fn stage_directions(view: &View) -> [Vec3; 2] {
     [backward, Vec3::Y.cross(backward)]
 }
 
-/// Towards the key light, stage units.
+/// Direction and distance of the key light, stage units.
 #[must_use]
 pub fn key_light(view: &View) -> Vec3 {
     let [backward, right] = stage_directions(view);

@@ -73,8 +73,8 @@ impl Studio {
         Ok(photograph.picture())
     }
 
-    /// Draws one frame as [`Studio::frame`] does, with `samples` paths of light per pixel. `go_on` is called with their number so
-    /// far, and returns whether to go on; a path per pixel of 1280 × 800 takes one to three seconds of processor time.
+    /// Draws one frame as [`Studio::frame`] does, with `samples` paths of light per pixel. Calls `go_on` with their number so far, and stops if it
+    /// returns false; a path per pixel of 1280 × 800 takes one to three seconds of processor time.
     ///
     /// # Errors
     ///
@@ -114,7 +114,7 @@ pub fn render_frame(
     Studio::new(width, height)?.frame(recording, frame, view, "")
 }
 
-/// A recording of one moment, with nothing but what can be seen in it; between two frames things are on their way from the one to the other.
+/// A recording of one moment, with only the things that can be seen in it; between two frames things are on their way from the one to the other.
 ///
 /// # Errors
 ///

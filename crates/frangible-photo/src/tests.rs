@@ -1,4 +1,4 @@
-//! Traced pictures against what is known of light.
+//! Tests of traced pictures against known properties of light.
 
 use frangible_recording::glam::{Vec3, Vec3A};
 use frangible_recording::{
@@ -110,7 +110,7 @@ fn a_crack_in_glass_lets_light_straight_through_up_to_the_critical_angle() {
 
 #[test]
 fn a_pane_on_the_floor_shades_it_by_what_it_mirrors() {
-    // Light falls on a level pane of clear glass; what is not mirrored lands below it.
+    // Light falls on a level pane of clear glass; the light that is not mirrored lands below it.
     let (low, high) = (Vec3::new(-0.6, 0.05, -0.6), Vec3::new(0.6, 0.06, 0.6));
     let recording = boxed(glass(), low, high, true);
     let units = StageUnits::of(&recording.camera);

@@ -108,8 +108,8 @@ impl Tree {
         self.divide(boxes, begin + middle, end, depth + 1);
     }
 
-    /// Asks for the faces whose boxes a ray meets, near ones first. `ask` gets a face and the distance beyond which nothing counts any more,
-    /// and gives the new distance.
+    /// Calls `ask` for the faces whose boxes a ray meets, near ones first. `ask` takes a face and the distance beyond which nothing counts any more,
+    /// and returns the new distance.
     #[inline]
     pub(crate) fn along(
         &self,
@@ -166,7 +166,7 @@ impl Tree {
     }
 }
 
-/// Sorts faces into two parts and tells how many belong to the first.
+/// Sorts faces into two parts. Returns the number in the first.
 fn best_division(boxes: &[Box3], faces: &mut [u32]) -> usize {
     let middle = |face: u32| boxes[face as usize].middle();
     let bounds = faces.iter().fold(Box3::EMPTY, |bounds, &face| {

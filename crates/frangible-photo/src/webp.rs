@@ -8,10 +8,10 @@ use webp_animation::{Encoder, EncoderOptions, EncodingConfig, EncodingType, Loss
 use crate::film::unwritten;
 use crate::{PhotoError, Picture};
 
-/// From 1 to 100; at 75 no difference is seen while things move.
+/// Quality, from 1 to 100; at 75 no difference is seen while things move.
 pub(crate) const WEBP_QUALITY: f32 = 75.0;
 
-/// From 0, the fastest, to 6, the smallest.
+/// Effort of the encoder, from 0, the fastest, to 6, the smallest file.
 const EFFORT: usize = 5;
 
 /// A WebP that grows in memory: it is a few megabytes at most.

@@ -9,14 +9,12 @@ use crate::WriteError;
 
 /// Writes a file so that its final name never holds half of it.
 ///
-/// The bytes go to a sibling (`NAME.PROCESS.part`), which then takes the final
-/// name; both lie in one folder, so the renaming is one step of the file
-/// system. On failure the sibling is removed and what stood under the final
-/// name before is left as it was.
+/// The bytes go to a sibling (`NAME.PROCESS.part`), which then takes the final name; both lie in one folder, so the renaming is one step of the file
+/// system. On failure the sibling is removed, and a former file under the final name is left as it was.
 ///
 /// # Errors
 ///
-/// [`WriteError`] with the path and what the system said.
+/// [`WriteError`] with the path and the system's error.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     let fail = |source| WriteError {
         path: path.to_path_buf(),

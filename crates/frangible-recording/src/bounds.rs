@@ -5,8 +5,7 @@ use glam::Vec3;
 use crate::Recording;
 
 impl Recording {
-    /// A sphere around everything that is seen in any frame, as its centre and
-    /// its radius, m. The floor does not count; an empty recording gives zero.
+    /// A sphere around everything visible in any frame, as its centre and its radius, m. The floor does not count; an empty recording gives zero.
     #[must_use]
     pub fn bounding_sphere(&self) -> (Vec3, f32) {
         let reach: Vec<f32> = self

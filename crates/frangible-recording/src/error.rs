@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-/// Why a recording cannot be written or drawn; each message says how to mend it.
+/// Error that keeps a recording from being written or drawn; each message says how to mend it.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum RecordingError {

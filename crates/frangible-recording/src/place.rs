@@ -3,8 +3,8 @@
 use std::fs;
 use std::path::Path;
 
-/// Makes the output folder; proves that it can be written, and that no folder has the name of a file to write. Returns whether
-/// the folder was there before. Messages name the command line's `option` that chooses another folder.
+/// Makes the output folder; proves that it can be written, and that no folder has the name of a file to write. Returns true if the folder was there
+/// before. Messages name the command line's `option` that chooses another folder.
 ///
 /// # Errors
 /// A sentence for the user of the command line.

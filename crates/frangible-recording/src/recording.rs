@@ -43,9 +43,9 @@ pub struct Recording {
     pub views: Option<[View; 4]>,
     /// The frames worth a picture.
     pub moments: Moments,
-    /// Everything that hit a node hard enough to be asked whether it breaks, in the order of time.
+    /// Blows on nodes that were hard enough to be analysed for a break, in the order of time.
     pub blows: Vec<RecordedBlow>,
-    /// Other contacts: pieces with each other, and with what they fell on; in the order of time.
+    /// Other contacts: pieces with each other and with whatever they fell on, in the order of time.
     pub touches: Vec<RecordedTouch>,
     /// Sliding contacts, in the order of time.
     pub slides: Vec<RecordedSlide>,
@@ -100,7 +100,7 @@ pub struct RecordedCrack {
     pub times: Vec<f64>,
 }
 
-/// Two things that came together, or a thing and what does not move.
+/// Two things that came together, or a thing and a fixed one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RecordedTouch {
     /// Time, s after the first frame.
@@ -111,13 +111,13 @@ pub struct RecordedTouch {
     pub point: Vec3,
     /// Unit direction of the push on the first node.
     pub normal: Vec3,
-    /// Impulse along it, N·s. Part of it may only be passed on, from what lies on top.
+    /// Impulse along it, N·s. Part of it may be passed on from things that lie on top.
     pub impulse: f64,
     /// Speed at which they approached along it, m/s.
     pub speed: f64,
 }
 
-/// Two things that slide along each other for a moment, or roll on each other, or a thing along or on what does not move.
+/// Two things that slide along each other for a moment, or roll on each other, or a thing along or on a fixed one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RecordedSlide {
     /// Time of its beginning, s after the first frame.

@@ -37,7 +37,7 @@ pub(crate) fn in_the_middle(asset: &Asset, speed: f64) -> Contact {
     Contact::collision(asset, Vec3::new(0.0, 0.0, 0.003), Vec3::NEG_Z, speed, ball)
 }
 
-/// A body and what hits it.
+/// A body and its contacts.
 pub(crate) struct Case {
     pub(crate) body: Body,
     pub(crate) contacts: Vec<Contact>,

@@ -80,7 +80,7 @@ fn push_motion(tracks: &mut Tracks<'_>, index: usize, node: &RecordedNode) {
     tracks.push_linear(index, Property::Rotation, first, &rotations);
 }
 
-/// Scale 1 while the node is to be seen, 0 before and after.
+/// Scale 1 while the node is visible, 0 before and after.
 fn push_visibility(tracks: &mut Tracks<'_>, index: usize, node: &RecordedNode, frames: usize) {
     let seen = &node.visible;
     if seen.is_empty() || *seen == (0..frames) {

@@ -57,7 +57,7 @@ fn material(surface: &SurfaceMaterial) -> json::Material {
     // other; opacity below 1 only stands in where nothing is transmitted.
     let blends = surface.base_color[3] < 1.0 && !has_transmission(surface);
     let [red, green, blue, opacity] = surface.base_color;
-    // What light passes through has its colour in its depth.
+    // A surface that transmits light has its colour in the depth of the body.
     let base_color = if has_volume(surface) {
         [1.0; 4]
     } else {

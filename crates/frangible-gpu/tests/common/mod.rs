@@ -21,7 +21,7 @@ pub(crate) fn gpu() -> Option<&'static Gpu> {
     }
 }
 
-/// Coarse: an adapter in software does a hundredth of what one in hardware does.
+/// Coarse, since an adapter in software is a hundred times slower than one in hardware.
 fn kind(name: &str, shape: Shape, material: &str, analysis: f64) -> Breakable {
     let mut material = Material::preset(material).unwrap();
     material.weak_point_density *= 0.2;
@@ -93,7 +93,7 @@ impl Numbers {
     }
 }
 
-/// Everything of an outcome that the GPU must not change: cracks, energies and pieces, to the bit.
+/// Parts of an outcome that the GPU must not change: cracks, energies and pieces, to the bit.
 pub(crate) fn cracks_and_pieces(outcome: &Outcome) -> Vec<u64> {
     let report = outcome.report();
     let mut bits = vec![
