@@ -1,4 +1,4 @@
-//! Why it broke: the motion of a contact over time, its stresses, and its cracks one by one.
+//! Analysis of a contact: its motion over time, its stresses, and its cracks one by one.
 
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -123,7 +123,7 @@ impl Analysis {
         }
     }
 
-    /// When the first crack started and the last one grew, s after the contact began; zeros without one.
+    /// Times at which the first crack started and the last one grew, s after the contact began; zeros without one.
     fn cracking(&self) -> [f64; 2] {
         [self.cut.first(), self.cut.last()].map(|cut| cut.map_or(0.0, |cut| cut.time))
     }
@@ -198,7 +198,7 @@ impl Analysis {
         self.motion.step_at(self.course.time(share), self.time_step)
     }
 
-    /// When a time step ends, s.
+    /// Time at which a time step ends, s.
     fn end_of(&self, step: usize) -> f64 {
         self.motion.begin(step + 1, self.time_step)
     }
@@ -301,7 +301,7 @@ mod tests {
                 .map(|[a, b, c]| 0.5 * (*b - *a).cross(*c - *a).length())
                 .sum::<f32>()
         };
-        // Parallel to a face: its area times the square of what is left of the height.
+        // A cut parallel to a face has the face's area times the square of the remaining height.
         for level in [0.25, 0.5, 0.9] {
             let expected = 0.5 * (1.0 - level) * (1.0 - level);
             assert!((area(level) - expected).abs() < 1e-6);

@@ -1,4 +1,4 @@
-//! Baked bodies of scenes: what was baked once is kept, and another material is a rescaling.
+//! Baked bodies of scenes: each bake is kept, and another material is a rescaling.
 
 use std::sync::Arc;
 
@@ -14,7 +14,7 @@ use crate::knobs::{Settings, turn_material};
 /// Scenes whose bodies are kept.
 const KEPT: usize = 12;
 
-/// All that a bake depends on.
+/// Everything that a bake depends on.
 #[derive(Clone, PartialEq)]
 struct BodyKey {
     source: BodySource,
@@ -50,7 +50,7 @@ impl Shelf {
         found.map(|(_, baked)| &baked[..])
     }
 
-    /// Forgets what was baked from files: they may have changed.
+    /// Forgets bakes from files: the files may have changed.
     pub(crate) fn forget_files(&mut self) {
         let of_file =
             |key: &BodyKey| matches!(key.source, BodySource::Mesh { .. } | BodySource::Asset(_));
@@ -81,7 +81,7 @@ pub(crate) fn scene_in(path: &std::path::Path) -> Result<Scene, SceneError> {
     frangible_scenes::scene_of_file(path)
 }
 
-/// Without a bake nothing in a file would be of use.
+/// Refuses every file: without the bake none of its contents could be used.
 #[cfg(not(feature = "bake"))]
 pub(crate) fn scene_in(path: &std::path::Path) -> Result<Scene, SceneError> {
     Err(SceneError::NoBake {
@@ -97,7 +97,7 @@ pub(crate) fn bake(scene: &Scene, _: &Teller) -> Result<Vec<BakedBody>, SceneErr
     })
 }
 
-/// Bakes a scene's bodies and tells how far it is.
+/// Bakes a scene's bodies and reports the progress.
 #[cfg(feature = "bake")]
 pub(crate) fn bake(scene: &Scene, teller: &Teller) -> Result<Vec<BakedBody>, SceneError> {
     teller.tell("reading".into(), 0.0);

@@ -1,4 +1,4 @@
-//! A camera that circles what it looks at, and the rays through its picture.
+//! A camera that circles its target, and the rays through its picture.
 
 use frangible::glam::{Quat, Vec2, Vec3};
 use frangible_recording::View;
@@ -18,7 +18,7 @@ pub struct Orbit {
     home: View,
     target: Vec3,
     distance: f32,
-    /// From +z towards +x, rad.
+    /// Angle from +z towards +x, rad.
     turn: f32,
     /// Above the level, rad.
     lift: f32,
@@ -51,17 +51,17 @@ impl Orbit {
         self.home
     }
 
-    /// Has this in view, from the side it looks from: middle, half the width and height, m; `aspect` is width over height of
-    /// where it is to be seen.
+    /// Moves the target to `middle`, and the camera so near that a thing with these half width and half height, m, just fits; the direction of view
+    /// stays. `aspect` is width over height of the space for the picture.
     pub fn focus_on(&mut self, middle: Vec3, [width, height]: [f32; 2], aspect: f32) {
         let tangent = (0.5 * self.home.vertical_fov).tan();
         let needed = (height / tangent).max(width / (tangent * aspect.max(0.1)));
         self.target = middle;
-        // What is nearer than the middle looks larger.
+        // Parts nearer than the middle look larger.
         self.distance = 1.05 * needed + 0.5 * height;
     }
 
-    /// Stands where this view does; the beginning stays what it was.
+    /// Takes the position of this view; the home view stays what it was.
     pub fn stand(&mut self, view: View) {
         *self = Self {
             home: self.home,
@@ -130,8 +130,8 @@ impl Orbit {
         [right, away.cross(right)]
     }
 
-    /// The ray through a place of the picture, shares of its width and height from the upper left. `aspect` is width over
-    /// height; `shift` is by how much the picture was moved, shares of half its width and height to the right and up.
+    /// The ray through a place of the picture, shares of its width and height from the upper left. `aspect` is width over height; `shift` is the
+    /// displacement of the picture, shares of half its width and height to the right and up.
     #[must_use]
     pub fn ray(&self, at: Vec2, aspect: f32, shift: [f32; 2]) -> Ray {
         let tangent = (0.5 * self.home.vertical_fov).tan();

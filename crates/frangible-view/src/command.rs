@@ -45,7 +45,7 @@ pub enum Command {
         /// Point that its centre is aimed at.
         through: Vec3,
     },
-    /// Swing the hammer onto what a ray meets.
+    /// Swing the hammer onto the thing that a ray meets.
     Swing {
         /// Origin of the ray, m.
         from: Vec3,
@@ -74,7 +74,7 @@ pub enum Command {
     Undo,
     /// Choose the subject to look at.
     Look(Subject),
-    /// The moment of the contact that is looked at: its share of the motion's time, 0..=1.
+    /// Choose a moment of the contact: its share of the motion's time, 0..=1.
     Scrub(f64),
     /// Factor by which the deformation is enlarged in the picture.
     Exaggerate(f64),
@@ -128,11 +128,11 @@ pub enum Command {
     Home,
     /// Throw, or swing, through this place of the window, shares of its width and height from the upper left.
     Click(f32, f32),
-    /// Select what is at this place of the window.
+    /// Select the thing at this place of the window.
     Pick(f32, f32),
-    /// Take hold of what is at this place of the window.
+    /// Take hold of the thing at this place of the window.
     GrabAt(f32, f32),
-    /// Pull what is held to this place of the window.
+    /// Pull the held thing to this place of the window.
     PullTo(f32, f32),
     /// Open or close a panel.
     Panel(String, bool),
@@ -150,7 +150,7 @@ pub enum Subject {
     World,
     /// The body during the last contact, deformed and coloured by stress.
     Stress,
-    /// The cracks of the last contact, and how they grew.
+    /// The cracks of the last contact, and their growth.
     Cracks,
     /// A vibration mode of the body that was hit last.
     Modes,
@@ -161,7 +161,7 @@ pub enum Subject {
 }
 
 impl Subject {
-    /// Returns true if it is looked at moment by moment.
+    /// Returns true if the subject has moments.
     #[must_use]
     pub const fn has_moments(self) -> bool {
         matches!(self, Self::Stress | Self::Cracks | Self::Modes)
@@ -192,7 +192,7 @@ pub enum Target {
     Scene,
     /// The current scene, GLB.
     Glb,
-    /// All that was done since the scene was loaded, as a script that does it again.
+    /// All commands since the scene was loaded, as a script that does the same again.
     Script,
     /// The numbers of the last contact, JSON.
     Report,
@@ -238,7 +238,7 @@ impl Default for FilmOptions {
 }
 
 impl FilmOptions {
-    /// Refuses what cannot be drawn, or would never end.
+    /// Refuses settings that cannot be drawn, or would take for ever.
     pub(crate) fn check(&self) -> Result<(), ViewError> {
         let longest = crate::film::KEPT;
         within("the film's length", self.seconds, [0.01, longest], "s")?;
@@ -289,7 +289,7 @@ pub struct HammerSpec {
 }
 
 impl Default for HammerSpec {
-    /// That of the scene `five-blows`: steel, 500 g, 7.5 m/s.
+    /// The hammer of the scene `five-blows`: steel, 500 g, 7.5 m/s.
     fn default() -> Self {
         Self {
             mass: 0.5,

@@ -13,7 +13,7 @@ use crate::mesher::numbered;
 use crate::picture::{Batch, BatchLooks};
 use crate::shown::Compared;
 
-/// Distance of the middles, in units of how far the body reaches.
+/// Distance of the middles, in units of the body's reach.
 const GAP: f32 = 2.3;
 
 /// Half the width and height of both outcomes, pieces drawn somewhat apart, m.

@@ -16,14 +16,14 @@ use crate::picture::{Batch, BatchLooks};
 use crate::session::Session;
 use crate::{Mark, Subject};
 
-/// So far out edges are drawn, share of the body's reach: on the surface they would flicker with it.
+/// Distance of the edges from the surface, share of the body's reach: on the surface they would flicker with it.
 const OUT: f32 = 2e-3;
 
 /// Colours, linear: of the fracture mesh, of the analysis mesh.
 const FINE: [f32; 3] = [0.02, 0.06, 0.25];
 const COARSE: [f32; 3] = [0.7, 0.12, 0.0];
 
-/// Skins that were found, by the place of their body in memory and whether it is the fine mesh's.
+/// Known skins, by the address of their body in memory; `true` for the fine mesh's.
 #[derive(Default)]
 pub(crate) struct Skins(BTreeMap<(usize, bool), Skin>);
 
@@ -56,7 +56,7 @@ pub(crate) fn skin(tets: impl Iterator<Item = [u32; 4]>) -> Vec<[u32; 3]> {
 
 impl Skins {
     fn faces(&mut self, asset: &Arc<Asset>, fine: bool) -> Arc<Vec<[u32; 3]>> {
-        // A few bodies at most are looked at at once.
+        // Only a few bodies are shown at once.
         if self.0.len() > 64 {
             self.0.clear();
         }
@@ -120,7 +120,7 @@ impl Skins {
 }
 
 impl Session {
-    /// The meshes that are marked: of the body that was hit as it is looked at, or in the scene of all that are whole.
+    /// The meshes that are marked: of the body that was hit as it is shown, or in the scene of all whole bodies.
     pub(crate) fn mesh_edges(&self, skins: &mut Skins) -> Vec<Batch> {
         let marked = [(Mark::FractureMesh, true), (Mark::AnalysisMesh, false)];
         let wanted = marked.into_iter().filter(|(mark, _)| self.is_marked(*mark));

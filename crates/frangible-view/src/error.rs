@@ -20,7 +20,7 @@ pub(crate) fn within(
     )))
 }
 
-/// Why a command or the window failed.
+/// Error of a command or of the window.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ViewError {
@@ -45,7 +45,7 @@ pub enum ViewError {
     /// A command that makes no sense now.
     #[error("{0}")]
     NotNow(String),
-    /// The scene, or what was thrown.
+    /// An error of the scene, or of a thrown thing.
     #[error(transparent)]
     Scene(#[from] frangible_scenes::SceneError),
     /// The fracture model.
@@ -76,7 +76,7 @@ pub enum ViewError {
         path: PathBuf,
         /// Read, written.
         doing: &'static str,
-        /// Why not.
+        /// Error of the system.
         source: std::io::Error,
     },
     /// No display to open a window on.

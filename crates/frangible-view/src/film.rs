@@ -32,7 +32,7 @@ fn shoot(
 }
 
 impl Session {
-    /// Begins to make a film of the last seconds, or a still of what is there.
+    /// Begins to make a film of the last seconds, or a still of the current scene.
     pub(crate) fn begin_film(
         &mut self,
         kind: FilmKind,

@@ -39,7 +39,7 @@ pub struct Delivery {
 }
 
 impl Delivery {
-    /// Tells what is being done, and the share of it that is done.
+    /// Reports the current stage, and the share of it that is done.
     pub fn tell(&self, what: &str, share: f64) {
         self.teller.tell(what.into(), share);
     }
@@ -52,7 +52,7 @@ impl Delivery {
 
     /// Hands the bodies in, one per body of the scene, in their order.
     pub fn finish(self, bodies: Result<Vec<BakedBody>, SceneError>) {
-        // Nobody waits for what was cancelled.
+        // Nobody waits for a cancelled delivery.
         let _ = self.sender.send(bodies);
     }
 }

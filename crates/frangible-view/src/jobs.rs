@@ -20,7 +20,7 @@ pub(crate) struct JobProgress {
     pub(crate) share: f64,
 }
 
-/// For the job itself: tells how far it is, and asks whether it is still wanted.
+/// Link from the job to its owner: reports the progress, and tells if the job was cancelled.
 #[derive(Clone, Default)]
 pub(crate) struct Teller {
     progress: Arc<Mutex<JobProgress>>,
@@ -108,7 +108,7 @@ impl<T: Send + 'static> Job<T> {
         }
     }
 
-    /// Asks it to end; it may take a while to hear that.
+    /// Asks it to end; it may take a while to notice that.
     pub(crate) fn cancel(&self) {
         self.teller.cancel.cancel();
     }
@@ -157,7 +157,7 @@ where
     T: Send + 'static,
     E: Send + 'static + Into<ViewError>,
 {
-    /// Takes a job out of its place once it is done, and says what came of it; waits for a while if told to.
+    /// Takes a job out of its place once it is done, and returns its result; waits for a while if told to.
     pub(crate) fn collect(
         place: &mut Option<Self>,
         wait: Option<Duration>,

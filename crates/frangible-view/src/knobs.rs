@@ -96,7 +96,7 @@ impl Knob {
         (self.get)(settings) / self.factor
     }
 
-    /// Turns it, to a value in its unit; what is out of range goes to the nearer end, NaN changes nothing.
+    /// Turns it to a value in its unit. A value out of range goes to the nearer end; NaN changes nothing.
     pub fn turn(&self, settings: &mut Settings, value: f64) {
         if value.is_nan() {
             return;

@@ -1,9 +1,9 @@
 //! Throw things, turn the knobs, see why it broke.
 //!
-//! Two halves. The **view model** has no window: a [`Session`] runs a scene step by step, takes [`Command`]s and tells
-//! what there is to see ([`Shown`]); [`Worker`] runs one on a thread of its own or in another program ([`Remote`]), so that
-//! neither a bake nor a break makes anybody wait; a [`Script`] is a list of commands. The **window** (feature `window`) draws what the session shows and
-//! turns mouse, keys and panels into the same commands that scripts give.
+//! Two halves. The **view model** has no window: a [`Session`] runs a scene step by step, takes [`Command`]s and returns its state as a window shows
+//! it ([`Shown`]); [`Worker`] runs one on a thread of its own or in another program ([`Remote`]), so that neither a bake nor a break makes anybody
+//! wait; a [`Script`] is a list of commands. The **window** (feature `window`) draws what the session shows and turns mouse, keys and panels into the
+//! same commands that scripts give.
 //!
 //! ```no_run
 //! use frangible_view::{Command, Session};

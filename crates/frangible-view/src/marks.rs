@@ -129,7 +129,7 @@ pub(crate) fn mode(analysis: &Analysis, pose: Pose, mode: usize, share: f64) -> 
     let [amplitude, swing] = amplitude_and_swing(asset, &field, share);
     let stress = |node: usize| {
         let [low, high] = ends(&field, node);
-        // Half a swing later what was pressed is pulled.
+        // Half a period later pressure is tension.
         if swing < 0.0 { -low } else { high }
     };
     let tensions = (0..field.stresses.len()).map(|node| {
@@ -143,7 +143,7 @@ pub(crate) fn mode(analysis: &Analysis, pose: Pose, mode: usize, share: f64) -> 
     (batch, f64::from(largest * amplitude))
 }
 
-/// Amplitude at which a mode is drawn, m·√kg, and how much of it is swung out at this share.
+/// Amplitude at which a mode is drawn, m·√kg, and the share of it that is reached at this moment.
 fn amplitude_and_swing(asset: &Asset, field: &ModeField, share: f64) -> [f32; 2] {
     let largest = field.largest_displacement().max(f32::MIN_POSITIVE);
     let swing = (std::f64::consts::TAU * share).sin() as f32;
@@ -196,7 +196,7 @@ fn surface(
     batch
 }
 
-/// The body as a ghost, and how far its cracks have come by a moment of the contact, coloured by when they came there.
+/// The body as a ghost, and its cracks up to a moment of the contact, coloured by time.
 pub(crate) fn cracks(analysis: &Analysis, pose: Pose, share: f64) -> Vec<Batch> {
     let still = ModeField {
         displacements: vec![Vec3::ZERO; analysis.asset.fracture.positions.len()],

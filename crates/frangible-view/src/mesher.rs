@@ -29,7 +29,7 @@ pub(crate) struct Mesher {
     chunks: Vec<Chunk>,
     /// Pose in which each thing is drawn; `None` if it is gone.
     poses: Vec<Option<Pose>>,
-    /// Counts what was written.
+    /// Counts the batches that were written.
     stamp: u64,
 }
 
@@ -75,7 +75,7 @@ impl Mesher {
         batches
     }
 
-    /// Puts what came into batches, and takes out what went.
+    /// Puts new things into batches, and takes out those that are gone.
     fn regroup(&mut self, live: &LiveScene) {
         let things = live.things();
         let there = |part: &Part| {

@@ -30,7 +30,7 @@ pub(crate) const FIRST: [Method; PANES] = [
 /// Distance of the middles of panes across and upwards, in widths and heights of the body.
 const GAPS: [f32; 2] = [1.55, 1.6];
 
-/// Least width and height of a pane over how far the body reaches: a heading needs room, and the camera may be turned.
+/// Least width and height of a pane over the body's reach: a heading needs room, and the camera may be turned.
 const LEAST: [f32; 2] = [1.5, 0.7];
 
 /// Least spread of the drawn pieces, as [`Command::Explode`](crate::Command::Explode) sets it: without it a cracked body would look whole.
@@ -84,17 +84,17 @@ impl Outcome {
 pub struct Methods {
     /// The impact.
     pub blow: Arc<Blow>,
-    /// Those that are shown, row by row from the upper left.
+    /// Methods that are shown, row by row from the upper left.
     pub chosen: Vec<Method>,
     /// Outcomes so far.
     pub outcomes: Vec<Arc<Outcome>>,
-    /// Towards the camera of the scene.
+    /// Direction towards the camera of the scene.
     pub(crate) look_from: Vec3,
 }
 
 /// Layout of the panes.
 struct Layout {
-    /// To the right and up in the picture.
+    /// Right and up directions in the picture.
     axes: [Vec3; 2],
     /// Width and height of the body as it is seen, m.
     size: [f32; 2],
@@ -148,7 +148,7 @@ impl Methods {
         }
     }
 
-    /// The panes, pieces drawn apart by `explode`, and what each of them is.
+    /// The panes, pieces drawn apart by `explode`, and their labels.
     pub(crate) fn draw(&self, live: &LiveScene, explode: f32) -> (Vec<Batch>, Vec<Label>) {
         let Layout {
             axes: [right, up],

@@ -137,7 +137,7 @@ impl Course {
         share.clamp(0.0, 1.0) * self.duration
     }
 
-    /// Time of a share of what a subject shows, s: cracks are there sooner than the motion ends.
+    /// Time of a share of the subject's duration, s: the cracks are complete before the motion ends.
     #[must_use]
     pub fn moment(&self, subject: Subject, share: f64) -> f64 {
         match subject {
@@ -183,7 +183,7 @@ pub struct OutcomeNumbers {
 }
 
 impl OutcomeNumbers {
-    /// Those of the methods that are shown, as far as they have come.
+    /// Numbers of the methods that are shown, as far as they have come.
     pub(crate) fn of(methods: &Methods) -> Vec<Self> {
         let outcomes = methods.chosen.iter().filter_map(|m| methods.outcome(*m));
         outcomes.map(|outcome| outcome.numbers.clone()).collect()

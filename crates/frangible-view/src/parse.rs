@@ -1,7 +1,7 @@
 //! Commands as lines of text: a word, then its numbers and names.
 //!
-//! A script is written by hand and by the session alike, so a command reads what it writes (`write.rs`), and a line that is none says what
-//! was probably meant. [`FORMS`] is the table of all of them; it makes the help, and the messages.
+//! A script is written by hand and by the session alike, so a command reads its own text (`write.rs`), and the error of a line that is no command
+//! says what was probably meant. [`FORMS`] is the table of all of them; it makes the help, and the messages.
 
 mod films;
 #[cfg(test)]
@@ -18,7 +18,7 @@ use crate::methods::named_methods;
 use films::{FILMS, film};
 use words::{MARKS, SUBJECTS, TARGETS, TOOLS, file, number, one_of, vector, whole};
 
-/// Each command's first word, and what comes after it.
+/// First word of each command, and its arguments.
 const FORMS: [(&str, &str); 49] = [
     ("scene", "NAME"),
     ("open", "FILE"),

@@ -6,14 +6,14 @@ use std::path::{Path, PathBuf};
 use crate::command::Command;
 use crate::error::ViewError;
 
-/// Commands to give one after the other; each waits for what the one before it began (bakes, steps, a second impact).
+/// Commands to give one after the other; each waits for the jobs of the one before it (bakes, steps, a second impact).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Script {
     commands: VecDeque<Command>,
 }
 
 impl Script {
-    /// Reads a script; `path` is what messages call it.
+    /// Reads a script; `path` is its name in messages.
     ///
     /// # Errors
     /// The first line that is no command.

@@ -13,7 +13,7 @@ use crate::numbers::{BlowNumbers, ComparedNumbers, Course, KnobValues, OutcomeNu
 use crate::picture::Picture;
 use crate::times::Spread;
 
-/// A session at one moment, to be drawn: whoever has it holds up nobody.
+/// A session's state at one moment, to be drawn without holding up the session.
 #[derive(Clone, Debug, Default)]
 pub struct Shown {
     /// Commands carried out or refused so far.
@@ -38,7 +38,7 @@ pub struct Shown {
     pub paused: bool,
     /// Simulated seconds per second.
     pub slow_motion: f64,
-    /// Volume, 0..=1, and whether it is muted; `None` where nobody listens.
+    /// Volume, 0..=1, and true if it is muted; `None` if nobody listens.
     pub sound: Option<(f64, bool)>,
     /// Bodies that have not broken.
     pub whole: usize,
@@ -62,13 +62,13 @@ pub struct Shown {
     pub reel: f64,
     /// True while a contact is being analysed.
     pub analysing: bool,
-    /// The last thing worth saying, and whether it is a complaint.
+    /// The last message, and true if it is a complaint.
     pub message: Option<(String, bool)>,
     /// Picture to draw.
     pub picture: Arc<Picture>,
-    /// Subject that is looked at.
+    /// Subject of the view.
     pub subject: Subject,
-    /// The moment of the contact that is looked at, 0..=1.
+    /// Moment of the contact to look at, 0..=1.
     pub scrub: f64,
     /// Factor by which deformations are enlarged in the picture.
     pub exaggeration: f64,
@@ -76,7 +76,7 @@ pub struct Shown {
     pub explode: f64,
     /// Marks that are shown.
     pub marks: Vec<Mark>,
-    /// The mode that is looked at, from 1.
+    /// Mode to look at, from 1.
     pub mode: usize,
     /// The last contact that mattered.
     pub blow: Option<BlowNumbers>,

@@ -67,7 +67,7 @@ impl Laps {
         }
     }
 
-    /// All of them, s, from the first to the last.
+    /// All laps, s, from the first to the last.
     #[cfg(feature = "window")]
     pub(crate) fn iter(&self) -> impl Iterator<Item = f64> {
         self.last.iter().copied()

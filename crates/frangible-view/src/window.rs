@@ -50,7 +50,7 @@ const LIVELY: Duration = Duration::from_millis(1200);
 /// While frames show nothing new, one in so many is drawn.
 const SELDOM: u32 = 40;
 
-/// Everything the window needs.
+/// State of the window.
 struct Viewer {
     stage: Option<LiveStage>,
     worker: Worker,
@@ -227,7 +227,7 @@ impl Viewer {
         }
     }
 
-    /// Carries out what is for the window, and passes on the rest.
+    /// Carries out a command for the window, and passes on any other.
     fn give(&mut self, command: Command, window: &mut Window) {
         let degrees = |angle: f32| angle.to_radians();
         match command.clone() {

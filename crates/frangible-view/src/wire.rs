@@ -1,8 +1,8 @@
 //! State of a session as bytes, for a window that shares no memory with it: on a page the session runs in a worker of the browser.
 //!
-//! Numbers are little-endian and lists begin with their length. Both ends are built from the same sources, so the bytes have no version and
-//! are never stored. Triangles that the window has already are not sent again: both ends remember the last picture, and what is in it is named by
-//! its place there.
+//! Numbers are little-endian and lists begin with their length. Both ends are built from the same sources, so the bytes have no version and are never
+//! stored. Triangles that the window has already are not sent again: both ends remember the last picture, and a part of it is named by its place
+//! there.
 
 use std::sync::Arc;
 
@@ -18,14 +18,14 @@ use crate::picture::{Batch, BatchLooks, Dot, Label, Line, Picture};
 use crate::shown::{BakeShown, Focus, Selection, Shown};
 use crate::times::Spread;
 
-/// Makes bytes of what a session shows.
+/// Packs the state of a session into bytes.
 #[derive(Debug, Default)]
 pub struct Packer {
     picture: Arc<Picture>,
     course: Option<Arc<Course>>,
 }
 
-/// Makes what a session shows of the bytes of one [`Packer`], all of them and in their order.
+/// Unpacks the state of a session from the bytes of one [`Packer`], all of them and in their order.
 #[derive(Debug, Default)]
 pub struct Unpacker {
     picture: Arc<Picture>,
@@ -33,7 +33,7 @@ pub struct Unpacker {
 }
 
 impl Packer {
-    /// The bytes of what there is to see.
+    /// Packs the state into bytes.
     #[must_use]
     pub fn pack(&mut self, shown: &Shown) -> Vec<u8> {
         let mut out = Vec::new();
@@ -343,7 +343,7 @@ impl Wire for BatchLooks {
     }
 }
 
-/// A picture, with what it shares with the one before by its place there.
+/// Writes a picture; a part that the previous one has too is named by its place there.
 fn write_picture(picture: &Picture, before: &Picture, out: &mut Vec<u8>) {
     picture.version.write(out);
     picture.batches.len().write(out);

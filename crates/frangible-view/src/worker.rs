@@ -1,6 +1,5 @@
-//! A session that runs beside whoever draws, so that neither a step nor a break nor a bake makes anybody wait: on a thread of its own, or
-//! where there are no threads in another program, which tells in bytes what there is to see. That program runs its session on the only
-//! thread it has.
+//! A session that runs beside its window, so that neither a step nor a break nor a bake makes anybody wait: on a thread of its own, or without
+//! threads in another program, which sends its state as bytes. That program runs its session on the only thread it has.
 
 mod here;
 mod there;
@@ -46,14 +45,14 @@ trait Place {
 }
 
 impl Worker {
-    /// Starts a session on a thread; with `by_clock` its scenes run in real time, else only by [`Command::Step`]. What happens is heard at the
-    /// outlet, if there is one.
+    /// Starts a session on a thread; with `by_clock` its scenes run in real time, else only by [`Command::Step`]. Their sound goes to the outlet, if
+    /// there is one.
     #[must_use]
     pub fn start(by_clock: bool, outlet: Option<Outlet>) -> Self {
         Self::at(OnThread::start(by_clock, outlet))
     }
 
-    /// A session that runs in another program; [`Worker::advance`] takes in what it tells.
+    /// A session that runs in another program; [`Worker::advance`] takes in its news.
     #[must_use]
     pub fn start_there(remote: Box<dyn Remote>) -> Self {
         Self::at(There::start(remote))
@@ -73,8 +72,8 @@ impl Worker {
         }
     }
 
-    /// Lets a session of this thread go on for some milliseconds, or takes in what one in another program tells; one that has a thread
-    /// needs no help.
+    /// Lets a session of this thread go on for some milliseconds, or takes in the news of one in another program; one that has a thread needs no
+    /// help.
     pub fn advance(&mut self) {
         self.place.advance();
     }

@@ -1,4 +1,4 @@
-//! Films: what is kept of the last seconds, and what is written. Drawing takes a graphics driver; without one it is skipped.
+//! Films: the recording of the last seconds, and the written files. Drawing takes a graphics driver; without one it is skipped.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! The hammer: where it strikes, what it leaves, and that it goes.
+//! The hammer: its blow, its effect, and its end.
 
 use crate::common::{bits, folder, give, pane};
 use frangible::glam::Vec3;

@@ -59,7 +59,7 @@ fn meshes_bend_with_the_body_that_is_looked_at() {
         assert!((*twice - *still - 2.0 * (*once - *still)).length() < 1e-3);
     }
     assert!(farthest > 1e-4, "{farthest}");
-    // Modes move both meshes; of what broke nothing is whole in the scene.
+    // Modes move both meshes; of a broken body nothing is whole in the scene.
     give(&mut session, "look modes");
     give(&mut session, "show fracture-mesh");
     let mut swung = Vec::new();

@@ -149,7 +149,7 @@ fn knobs_of_the_modes_bake_again_and_the_others_do_not() {
     assert_eq!(asset.material.poisson_ratio, 0.3);
     assert_eq!(asset.material.density, 3000.0);
     assert_eq!(asset.material.youngs_modulus, 50e9);
-    // What was baked once is at hand.
+    // An earlier bake is at hand.
     assert!(!apply(&mut session, "knob modes 20"));
 }
 

@@ -12,7 +12,7 @@ fn heard(test: &str) -> (Session, Outlet) {
     (session, outlet)
 }
 
-/// Takes steps until the pane is in pieces and some more, and gives all that was heard, and the time of the break, s.
+/// Takes steps until the pane is in pieces and some more. Returns all sound, and the time of the break, s.
 fn listened(session: &mut Session, outlet: &Outlet) -> (Vec<f32>, f64) {
     let (mut samples, mut broke) = (Vec::new(), 0.0);
     while session.time() < 0.35 {

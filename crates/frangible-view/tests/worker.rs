@@ -30,7 +30,7 @@ fn a_bake_and_a_break_show_on_the_way_and_are_done_at_the_end() {
     let mut worker = Worker::start(false, None);
     let path = common::scene_file("worker");
     send(&mut worker, &format!("open {}", path.display()));
-    // While it bakes, what there is to see says so.
+    // While it bakes, the shown state says so.
     wait(&worker, |shown| shown.bake.is_some());
     wait(&worker, |shown| shown.whole == 1);
     send(&mut worker, "step 500");

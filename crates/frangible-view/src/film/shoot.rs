@@ -44,7 +44,7 @@ pub(super) fn shoot(
     Ok(film.finish()?)
 }
 
-/// For a still: says how many samples there are, and asks whether it is still wanted.
+/// Callback of a still: reports the number of samples, and returns true if the still is still wanted.
 fn telling(teller: &Teller, samples: u32) -> impl Fn(u32) -> bool {
     let teller = teller.clone();
     teller.tell("path-tracing".into(), 0.0);

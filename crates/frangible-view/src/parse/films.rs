@@ -1,4 +1,4 @@
-//! Films among the commands: a file, and behind it what differs from the usual.
+//! Films among the commands: a file, and behind it the options that differ from the default.
 
 use super::words::{file, number, one_of, whole};
 use crate::command::{Command, FilmKind, FilmOptions};
@@ -10,7 +10,7 @@ pub(super) const FILMS: [(&str, FilmKind); 4] = [
     ("mp4", FilmKind::Mp4),
 ];
 
-/// A film: its file, and behind that what differs from the usual: `3s`, `20fps`, `640x400`, `64spp`.
+/// A film: its file, and behind that the options that differ from the default: `3s`, `20fps`, `640x400`, `64spp`.
 pub(super) fn film(kind: &str, tail: &str) -> Result<Command, String> {
     let mut options = FilmOptions::default();
     let mut rest = file(tail).to_string_lossy().into_owned();

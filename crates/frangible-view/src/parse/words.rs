@@ -1,4 +1,4 @@
-//! Words and numbers in a line, and what they stand for.
+//! Words and numbers in a line, and their values.
 
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -35,7 +35,7 @@ pub(super) const TARGETS: [(&str, Target); 5] = [
     ("times", Target::Times),
 ];
 
-/// A file's name: what follows the first word, which may have blanks in it.
+/// A file's name: the rest of the line after the first word, which may have blanks in it.
 pub(super) fn file(tail: &str) -> PathBuf {
     let (_, path) = tail.split_once(char::is_whitespace).unwrap_or_default();
     path.trim().into()

@@ -1,7 +1,7 @@
 //! Results that are computed elsewhere: bakes, analyses, impacts taken again, comparisons and films.
 //!
-//! A command that takes long begins a job on another thread and returns. Whoever has the session asks from time to time whether something
-//! is done, or waits for all of it.
+//! A command that takes long begins a job on another thread and returns. The session's owner asks from time to time for results, or waits for all of
+//! them.
 
 use std::time::Duration;
 

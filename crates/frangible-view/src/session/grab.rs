@@ -21,7 +21,7 @@ pub(super) struct Grip {
     thing: usize,
     /// Distance from the eye at which it was taken, m.
     distance: f32,
-    /// From the place that was taken to the thing's centre of mass, m.
+    /// Vector from the place that was taken to the thing's centre of mass, m.
     offset: Vec3,
     /// Target of the place that was taken, m.
     target: Vec3,
@@ -66,7 +66,7 @@ impl Session {
         }
     }
 
-    /// Moves what is held, before a step; what broke in the hand is gone.
+    /// Moves the held thing, before a step; one that broke in the hand is gone.
     pub(super) fn pull_along(&mut self) {
         let (Some(grip), Some(live)) = (self.grip, self.live.as_mut()) else {
             return;

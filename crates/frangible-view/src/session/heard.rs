@@ -22,7 +22,7 @@ pub(super) struct Heard {
 }
 
 impl Session {
-    /// Lets what happens from now on be heard: each step adds its sound to the outlet, as fast as the clock.
+    /// Makes the scene heard from now on: each step adds its sound to the outlet, as fast as the clock.
     pub fn listen(&mut self, outlet: Outlet) {
         self.heard = Some(Heard {
             outlet,
@@ -37,7 +37,7 @@ impl Session {
         self.listen_anew();
     }
 
-    /// Forgets what rings: another scene, or one put back.
+    /// Forgets ringing bodies, for another scene or one put back.
     pub(super) fn listen_anew(&mut self) {
         let (Some(heard), Some(live)) = (&mut self.heard, &self.live) else {
             return;
@@ -78,7 +78,7 @@ impl Session {
         }
     }
 
-    /// Forgets what waits to be played.
+    /// Forgets sound that waits to be played.
     pub(super) fn hush(&mut self) {
         if let Some(heard) = &mut self.heard {
             heard.outlet.clear();
@@ -91,7 +91,7 @@ impl Session {
         Ok(())
     }
 
-    /// Mutes, from the next sample on, or lets what comes be heard again.
+    /// Mutes the sound, from the next sample on, or turns it on again.
     pub(super) fn set_muted(&mut self, muted: bool) -> Result<(), ViewError> {
         self.ears()?.muted = muted;
         if muted {
@@ -106,7 +106,7 @@ impl Session {
             .ok_or_else(|| ViewError::NotNow("nobody listens: there is no sound here".into()))
     }
 
-    /// Volume and whether it is muted, where somebody listens.
+    /// Volume, and true if it is muted; none if nobody listens.
     pub(super) fn volume(&self) -> Option<(f64, bool)> {
         self.heard.as_ref().map(|heard| (heard.volume, heard.muted))
     }

@@ -43,7 +43,7 @@ impl Session {
         Ok(())
     }
 
-    /// Goes to the moment that tells most of the subject: all cracks there are, or the largest tension.
+    /// Goes to the moment that shows most of the subject: all cracks, or the largest tension.
     fn scrub_to_the_point(&mut self) {
         match (self.subject, &self.analysis) {
             (Subject::Cracks, _) => self.scrub = 1.0,
@@ -105,7 +105,7 @@ impl Session {
         shown
     }
 
-    /// All that panels tell, and the picture.
+    /// Collects all numbers of the panels, and the picture.
     fn tell(&self) -> Shown {
         let live = self.live.as_ref();
         let count = |wanted: fn(&ThingKind) -> bool| {

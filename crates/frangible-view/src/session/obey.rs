@@ -19,7 +19,7 @@ impl Session {
     /// [`Session::poll`] or [`Session::finish_jobs`] collects them; steps that [`Command::Step`] asks for are taken here.
     ///
     /// # Errors
-    /// What stands in the way; nothing was done then.
+    /// A command that cannot be carried out; nothing was done then.
     pub fn apply(&mut self, command: Command) -> Result<(), ViewError> {
         self.begin(command)?;
         while self.owes() {
@@ -147,11 +147,11 @@ impl Session {
         Ok(())
     }
 
-    /// Keeps what a script needs to do the same again.
+    /// Logs the commands that a script needs to do the same again.
     fn write_down(&mut self, deed: Command) {
         match deed {
             Command::Scene(_) | Command::Open(_) => self.log.clear(),
-            // What was before does not matter to what comes, but for what was chosen.
+            // Earlier commands do not matter to later ones, but for choices.
             Command::Reset | Command::Drop(_) => self.log.retain(|known| {
                 !matches!(
                     known,

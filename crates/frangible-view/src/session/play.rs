@@ -76,7 +76,7 @@ impl Session {
         }
     }
 
-    /// Takes note of what broke and what held in the last step.
+    /// Takes note of breaks and of blows that held in the last step.
     fn hear(&mut self) {
         let Some(live) = self.live.as_ref() else {
             return;

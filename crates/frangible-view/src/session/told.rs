@@ -76,12 +76,12 @@ impl Session {
         self.exaggeration
     }
 
-    /// The mode that is looked at, from 0.
+    /// Mode to look at, from 0.
     pub(crate) fn mode_of(&self, analysis: &Analysis) -> usize {
         self.mode.clamp(1, analysis.asset.modes.count().max(1)) - 1
     }
 
-    /// From where films are seen.
+    /// View of films.
     pub(crate) fn film_view(&self) -> View {
         self.look_from.unwrap_or(self.home)
     }

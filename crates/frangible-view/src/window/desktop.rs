@@ -53,7 +53,7 @@ pub fn run(options: WindowOptions) -> Result<(), ViewError> {
     }
     let mut viewer = viewer(options);
     let result = pollster::block_on(viewer.live(&mut window));
-    // What is on the stage belongs to the window.
+    // The contents of the stage belong to the window.
     drop(viewer);
     drop(window);
     result

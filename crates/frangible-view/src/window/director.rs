@@ -41,7 +41,7 @@ impl Director {
         if let Some(error) = self.failed.take() {
             return Err(error);
         }
-        // Only pictures have to wait for what is drawn.
+        // Only pictures have to wait until the scene is drawn.
         let pictured = matches!(script.peek(), Some(Command::Screenshot(_)));
         if !done || pictured && !drawn {
             self.frames = 0;

@@ -41,7 +41,7 @@ pub(super) enum Stroke {
     Theme,
 }
 
-/// Keys, what they are called, and what they do, in the order of the help.
+/// Keys, their names, and their meanings, in the order of the help.
 pub(super) const KEYS: [(Key, &str, Stroke, &str); 24] = [
     (
         Key::Space,
@@ -149,7 +149,7 @@ impl Hands {
     pub(super) fn read(&mut self, window: &mut Window) -> Said {
         let mut said = Said::default();
         let size = Vec2::new(window.width() as f32, window.height() as f32).max(Vec2::ONE);
-        // Asked of the place of each event: what egui itself says is as old as the last frame.
+        // Tested at the place of each event: the answer of egui itself is as old as the last frame.
         let (panels, scale) = (window.egui_context().clone(), window.scale_factor() as f32);
         let over_panel = |at: Vec2| {
             let place = egui::pos2(at.x / scale, at.y / scale);

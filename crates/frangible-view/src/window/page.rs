@@ -73,7 +73,7 @@ impl Viewer {
     }
 }
 
-/// Why a page does not do this.
+/// Reason that a page cannot carry out a command.
 pub(super) fn not_here(command: &Command) -> String {
     match command {
         Command::Film(..) => "a page makes no films or stills: `frangible view` does".into(),

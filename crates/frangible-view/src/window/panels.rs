@@ -1,7 +1,7 @@
-//! The panels over the picture: what can be played with at the left, what is looked into at the right, a line of news below.
+//! The panels over the picture: tools to play with at the left, analysis at the right, a line of news below.
 //!
-//! Panels show what the session tells and answer with commands, as keys do (`strokes.rs`); they keep only what is open and what a person
-//! has set in them but not yet asked for. Each panel is a module of its own; `layout.rs` says where they are, `style.rs` how they look.
+//! Panels show the session's state and answer with commands, as keys do (`strokes.rs`); they keep only their open parts, and settings that a person
+//! has not yet applied. Each panel is a module of its own; `layout.rs` has their positions, `style.rs` their style.
 
 mod films;
 mod gallery;
@@ -77,7 +77,7 @@ impl Panels {
             dark: true,
             folder,
             saved: 0,
-            // Whoever opens it for the first time must know what to do.
+            // A first-time user must know how to begin.
             note: (!script).then(|| "click to throw the ball; ? lists keys and mouse".into()),
             drop_height: 1.2,
             times: FrameTimes::default(),
@@ -88,7 +88,7 @@ impl Panels {
         }
     }
 
-    /// In a page there are these scenes only, and no disk.
+    /// Panels in a page, which has these scenes only, and no disk.
     pub(super) fn in_page(scenes: Vec<String>) -> Self {
         Self {
             scenes,
@@ -166,7 +166,7 @@ impl Panels {
         commands.push(Command::Scrub(next));
     }
 
-    /// Draws the panels over the next frame; what was said with mouse, keys and panels comes back.
+    /// Draws the panels over the next frame. Returns the commands of mouse, keys and panels.
     pub(super) fn draw(
         &mut self,
         window: &mut Window,
@@ -209,7 +209,7 @@ impl Panels {
         commands
     }
 
-    /// Opens what is on the right, or closes it.
+    /// Opens a tab on the right, or closes it.
     fn flip(&mut self, tab: Tab) {
         self.tab = (self.tab != Some(tab)).then_some(tab);
     }

@@ -32,7 +32,7 @@ struct Cast {
     shadow: Option<Arc<LiveShadow>>,
 }
 
-/// Who casts shadows.
+/// The thread that casts shadows, or this one.
 enum Caster {
     Thread {
         wishes: Sender<Wish>,
@@ -60,7 +60,7 @@ pub(super) struct Shade {
 }
 
 impl Shade {
-    /// On a thread of its own, or here: a little whenever a shadow is wanted.
+    /// Starts on a thread of its own, or `here`: a little of a shadow each time that one is wanted.
     pub(super) fn start(here: bool) -> Self {
         if here {
             return Self::by(Caster::Here(None));

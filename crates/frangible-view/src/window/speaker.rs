@@ -2,7 +2,7 @@
 
 use frangible_sound::Outlet;
 
-/// Plays what is put into its outlet for as long as it lives.
+/// Plays the samples in its outlet for as long as it lives.
 pub(super) struct Speaker {
     #[cfg(target_os = "linux")]
     _stream: (pulseaudio::Client, pulseaudio::PlaybackStream),
@@ -86,7 +86,7 @@ pub(super) fn open() -> Result<(Speaker, Outlet), String> {
     let outlet = Outlet::new(f64::from(config.sample_rate));
     let source = outlet.clone();
     let fill = move |samples: &mut [f32], _: &cpal::OutputCallbackInfo| source.play(samples);
-    // What goes wrong later is heard.
+    // Later errors are audible.
     let stream = device.build_output_stream(config, fill, |_| {}, None);
     let stream = stream.map_err(told)?;
     stream.play().map_err(told)?;

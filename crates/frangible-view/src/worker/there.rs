@@ -1,4 +1,4 @@
-//! A session in another program, which tells in bytes what there is to see.
+//! A session in another program, which sends its state as bytes.
 
 use std::sync::Arc;
 

@@ -13,7 +13,7 @@ use crate::command::Command;
 use crate::session::Session;
 use crate::shown::Shown;
 
-/// Longest time between two looks at what there is to see, while something moves.
+/// Longest time between two published states, while something moves.
 const FRAME: Duration = Duration::from_millis(16);
 
 /// A session's thread, which ends when this is dropped.

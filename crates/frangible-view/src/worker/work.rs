@@ -13,7 +13,7 @@ use crate::shown::Shown;
 /// Time for which steps are taken before anybody else has a turn. A clock that cannot be kept up with goes slower.
 const PATIENCE: Duration = Duration::from_millis(10);
 
-/// A session, its clock, and what of it was not shown yet.
+/// A session, its clock, and its news that were not published yet.
 pub(super) struct Work {
     pub(super) session: Session,
     clock: Clock,
@@ -42,13 +42,12 @@ impl Work {
     }
 
     pub(super) fn take(&mut self, command: Command) {
-        // What went wrong is in what is shown.
+        // An error is a part of the shown state.
         let _ = self.session.begin(command);
         self.news = true;
     }
 
-    /// Collects what was computed elsewhere and takes the steps that are due, for some milliseconds; true if the clock runs
-    /// and none was due.
+    /// Collects results computed elsewhere and takes the steps that are due, for some milliseconds; true if the clock runs and none was due.
     pub(super) fn turn(&mut self) -> bool {
         let session = &mut self.session;
         // How far a bake is, is news too.
@@ -104,7 +103,7 @@ impl Clock {
                 break;
             }
             let before = session.time();
-            // A refused break is told by the session; the scene goes on.
+            // The session shows a refused break; the scene goes on.
             let _ = session.step();
             self.due -= (session.time() - before).max(1e-6);
             any = true;

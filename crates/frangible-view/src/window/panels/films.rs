@@ -1,4 +1,4 @@
-//! Films and path-traced stills, and how far they are.
+//! Films and path-traced stills, and their progress.
 
 use egui::{DragValue, Ui};
 

@@ -1,4 +1,4 @@
-//! Why it broke: the last contact over time, its cracks, its energy.
+//! Panel that explains a break: the last contact over time, its cracks, its energy.
 
 use web_time::Instant;
 
@@ -156,7 +156,7 @@ fn contact(ui: &mut Ui, blow: &BlowNumbers) {
     });
 }
 
-/// The palette, with what its ends mean.
+/// The palette, with labels at its ends.
 fn color_bar(ui: &mut Ui, shown: &Shown, course: &Course) {
     let ends = match shown.subject {
         Subject::Stress | Subject::Modes => {

@@ -15,7 +15,7 @@ use crate::times::{Laps, Spread};
 /// Times of the last frames.
 #[derive(Default)]
 pub(in crate::window) struct FrameTimes {
-    /// From frame to frame.
+    /// Time from frame to frame.
     wall: Laps,
     /// Processor time of the window's thread, without the wait for the screen.
     processor: Laps,
@@ -27,7 +27,7 @@ pub(in crate::window) struct FrameTimes {
 /// Times of the last frames, for a file.
 #[derive(serde::Serialize)]
 struct Times {
-    /// From frame to frame, s.
+    /// Time from frame to frame, s.
     frame_s: Spread,
     /// Processor time of the window's thread for a frame, s; the driver's own threads are not in it.
     window_s: Spread,

@@ -1,4 +1,4 @@
-//! The line at the lower edge: time, pieces, and what there is to say.
+//! The line at the lower edge: time, pieces, and the last message.
 
 use egui::{Align2, Color32, RichText};
 
