@@ -35,7 +35,7 @@ fn stages(c: &mut Criterion) {
     });
     let models = [("paper's model", &bench.paper), ("our model", &bench.ours)];
     for (model, config) in models {
-        // These stages have no door of their own: the report of the whole impact tells their time.
+        // These stages have no function of their own: the report of the whole impact has their times.
         let mut reported = |stage: &str, part: fn(StageTimings) -> f64| {
             group.bench_function(format!("{stage}, {model}"), |b| {
                 b.iter_custom(|runs| seconds(&bench, config, runs, part));

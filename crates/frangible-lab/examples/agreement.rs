@@ -1,5 +1,4 @@
-//! Compares the pipeline with the reference over generated impacts, times both, and shows what other readings of the
-//! paper would change.
+//! Compares the pipeline with the reference over generated impacts, times both, and shows the effect of other readings of the paper.
 //!
 //! `cargo run --release -p frangible-lab --example agreement -- [IMPACTS PER BODY]`
 
@@ -37,7 +36,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     readings(&linear, impacts.min(20))
 }
 
-/// Processor time of this thread where Linux tells it, else the time on the clock; s.
+/// Processor time of this thread if Linux reports it, else the time on the clock; s.
 fn seconds() -> f64 {
     static START: OnceLock<Instant> = OnceLock::new();
     let elapsed = || START.get_or_init(Instant::now).elapsed().as_secs_f64();

@@ -1,7 +1,7 @@
 //! A bull in a china shop: a thousand breakable things, a ball of 400 kg, frame times.
 //!
-//! `cargo run --release -p frangible-lab --example china_shop -- [runs] [seconds]`: 5 equal runs of 4 s. Of `frangible-lab bench
-//! shop` it has the table, and how it went.
+//! `cargo run --release -p frangible-lab --example china_shop -- [runs] [seconds]`: 5 equal runs of 4 s. It prints the table of `frangible-lab bench
+//! shop`, and the course of the run.
 
 use frangible_lab::bench::page;
 use frangible_lab::bench::shop::{Options, measure};

@@ -9,7 +9,7 @@ use frangible::Asset;
 use frangible::internals::asset::SaveOptions;
 use frangible_lab::bench::stages::{Bench, Depth, small_body};
 
-/// Cases and how often each is repeated: enough for a million instructions.
+/// Cases, each with its number of repetitions: enough for a million instructions.
 const CASES: [(&str, usize); 8] = [
     ("first-bound", 50),
     ("refused-by-amplitudes", 5),

@@ -1,4 +1,4 @@
-//! A plate of glass under a hand, a thousand times a second: what the hand feels, and when the plate breaks.
+//! A plate of glass under a hand, a thousand times a second: the force on the hand, and the break of the plate.
 //!
 //! `cargo run --release -p frangible-lab --example haptic -- [ticks] [--fast]`: 30 s of strokes that keep time with the clock,
 //! or as fast as they go.

@@ -45,7 +45,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     if let Some(folder) = folder {
         let path = Path::new(&folder).join("performance.md");
         let known = std::fs::read_to_string(&path).ok();
-        // Bytes do not hang on what else the machine does.
+        // The number of bytes does not depend on other load of the machine.
         let machine = Machine {
             busy: None,
             ..Machine::this()

@@ -6,7 +6,7 @@
 //! - [`figures`]: the figures of the paper that the model is taken from, each claim with a verdict;
 //! - [`bench`](mod@bench): times, memory, counted instructions;
 //! - [`reference`](mod@reference): the paper's algorithms word for word, which the pipeline must agree with;
-//! - [`sound`]: what is struck and what breaks, heard and drawn, beside closed forms and published spectra;
+//! - [`sound`]: struck and broken bodies, heard and drawn, beside closed forms and published spectra;
 //! - [`page`] and [`plot`]: the tables and the charts of all these pages.
 
 pub mod bench;

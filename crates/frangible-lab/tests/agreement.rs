@@ -1,4 +1,4 @@
-//! The pipeline in the paper's mode does what the paper says, element by element.
+//! The pipeline in the paper's mode agrees with the paper, element by element.
 
 use frangible::internals::{DurationModel, impact_traced};
 use frangible::{FractureConfig, Outcome, impact};
@@ -17,7 +17,7 @@ fn as_in_the_paper() -> FractureConfig {
     config
 }
 
-/// The first difference of one impact, and whether the body broke.
+/// The first difference of one impact, and true if the body broke.
 fn difference(
     case: &Case,
     number: u64,
@@ -31,7 +31,7 @@ fn difference(
     (compare(outcome.report(), &trace, &reference), broke)
 }
 
-/// The first difference of one impact in our model, up to its first crack, and whether there was one.
+/// The first difference of one impact in our model, up to its first crack, and true if there was one.
 fn first_difference(case: &Case, number: u64, field: Field) -> (Result<(), Mismatch>, bool) {
     let (body, contacts) = generate(case, number).unwrap();
     // The first tetrahedron pays out of the paper's depth γ.

@@ -50,7 +50,7 @@ fn is_row(line: &str) -> bool {
     line.starts_with("| ") && !line.starts_with("| case ")
 }
 
-/// The value on the page is that of the check, but for what another machine may round: a per mille, or a tenth of the tolerance.
+/// The value on the page is that of the check, but for rounding on another machine: a per mille, or a tenth of the tolerance.
 fn agrees(cell: &str, check: &Check) -> bool {
     if check.reference == 0.0 {
         // Rounding errors: that they pass is all they say.

@@ -207,7 +207,7 @@ fn a_small_run_gives_the_published_page_with_other_numbers_and_the_same_bits_twi
         length(0),
         length(1)
     );
-    // No bound hides a tension, and what a ball does grows with its speed.
+    // No bound hides a tension, and the effect of a ball grows with its speed.
     let tensions: Vec<f64> = found.rear_stars.results.iter().map(|r| r.tension).collect();
     assert!(tensions[0] > 0.0 && tensions.is_sorted(), "{tensions:?}");
     for masses in &found.masses.runs {

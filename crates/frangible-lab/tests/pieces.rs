@@ -1,5 +1,5 @@
-//! A small run of the comparison of ways to find how pieces vibrate: a finer way is nearer to the truth, the page says what was
-//! computed, and threads change nothing but times.
+//! A small run of the comparison of ways to find how pieces vibrate: a finer way is nearer to the truth, the page reports the results, and threads
+//! change nothing but times.
 
 use std::sync::Arc;
 
@@ -50,7 +50,7 @@ fn frequency_error(pieces: &[PieceSample], way: usize) -> f64 {
     errors[errors.len() / 2]
 }
 
-/// All that must not depend on threads.
+/// All results that must not depend on threads.
 fn bits(truth: &Truth) -> Vec<u64> {
     let of = |p: &PieceSample| {
         let mut bits = vec![p.tets as u64];

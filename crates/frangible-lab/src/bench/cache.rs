@@ -14,7 +14,7 @@ use crate::bench::subjects::Geometry;
 pub struct Cache {
     /// Path of the folder.
     pub folder: PathBuf,
-    /// Bake even what is there.
+    /// If true, bakes even a body that is there.
     pub rebake: bool,
 }
 
@@ -30,8 +30,7 @@ pub struct Baked {
 }
 
 impl Cache {
-    /// The body of this name, from its file or baked; what the bake took stands in a file beside it. A file that cannot be read
-    /// is baked anew.
+    /// The body of this name, from its file or baked; the time of its bake stands in a file beside it. A file that cannot be read is baked anew.
     ///
     /// # Errors
     /// A body that does not bake, a folder that cannot be written.

@@ -41,13 +41,13 @@ const MOST_CALLS: usize = 400_000;
 pub enum Class {
     /// Refused by the size of its impulse, its place and its duration: one number.
     Size,
-    /// Refused by how far its impulse moves each mode at most.
+    /// Refused by a bound of the amplitude to which its impulse moves each mode.
     Impulse,
     /// Refused by the amplitudes of the modes: at every step the bound of the whole body stays below the strength.
     Amplitudes,
     /// Refused by clusters: at some step the bound of the whole body passes the strength, that of no cluster does.
     Clusters,
-    /// Stresses at weak points are looked at, and stay below the strength.
+    /// Stresses at weak points are computed, and stay below the strength.
     LookedAt,
     /// Cracks run that part nothing.
     Cracked,
@@ -56,7 +56,7 @@ pub enum Class {
 }
 
 impl Class {
-    /// From the cheapest.
+    /// All classes, from the cheapest.
     pub const ALL: [Self; 7] = [
         Self::Size,
         Self::Impulse,
@@ -67,7 +67,7 @@ impl Class {
         Self::Breaks,
     ];
 
-    /// In words.
+    /// The class in words.
     #[must_use]
     pub const fn title(self) -> &'static str {
         match self {
@@ -110,7 +110,7 @@ pub struct Findings {
     pub game: Timed,
     /// Share of each class in it.
     pub game_shares: Vec<(Class, f64)>,
-    /// Each class for itself; one that was not met is left out.
+    /// Each class by itself; one that was not met is left out.
     pub classes: Vec<(Class, Timed)>,
 }
 
@@ -197,7 +197,7 @@ impl<'a> Source<'a> {
         (0..count).filter_map(|_| self.draw().ok()).collect()
     }
 
-    /// In 0..1.
+    /// A number in 0..1.
     fn uniform(&mut self) -> f64 {
         f64::from(self.rng.next_u32()) / (f64::from(u32::MAX) + 1.0)
     }

@@ -1,4 +1,4 @@
-//! Why a measurement could not be made.
+//! Errors of the benchmarks.
 
 use std::path::PathBuf;
 
@@ -10,7 +10,7 @@ use frangible_rapier::WorldError;
 use frangible_scenes::SceneError;
 use thiserror::Error;
 
-/// Why a measurement could not be made.
+/// Error that keeps a measurement from being made.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum BenchError {
@@ -54,7 +54,7 @@ pub enum BenchError {
         /// Names of the bodies.
         known: String,
     },
-    /// A blow that did not do what it is there for.
+    /// A blow that did not reach its stage.
     #[error("{0}")]
     NotAsMeant(String),
 }

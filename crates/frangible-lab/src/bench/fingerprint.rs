@@ -1,6 +1,6 @@
 //! One number for all bits of a run: two runs that differ anywhere differ in it.
 
-/// FNV-1a over what was added.
+/// FNV-1a hash of the added numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Fingerprint(u64);
 

@@ -37,16 +37,16 @@ pub const SUBJECTS: [Subject; 9] = [
     subject("hammer", SOLID),
 ];
 
-/// The body that is asked whether it would break.
+/// Body for the questions whether it would break.
 const ASKED: &str = "glass";
 
 /// Speeds, m/s, from and to, that it is asked about, and the goal of the median, s.
 const QUESTIONS: [([f64; 2], f64); 2] = [([0.5, 1.0], 0.001), ([1.0, 2.0], 0.005)];
 
-/// So many bodies that differ in their weak points are asked.
+/// Number of bodies that are asked, which differ in their weak points.
 const SEEDS: u64 = 20;
 
-/// So many speeds of each range.
+/// Number of speeds of each range.
 const SPEEDS: usize = 8;
 
 const fn subject(scene: &'static str, goal: f64) -> Subject {
@@ -101,7 +101,7 @@ pub struct Asked {
     pub goal: f64,
 }
 
-/// Everything that was measured.
+/// All measurements.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Findings {
     /// A row for each body.
@@ -157,7 +157,7 @@ pub fn measure(
 /// The first blow of a scene that breaks something.
 struct Blow {
     first: FirstBreak,
-    /// The body anew, twice: nothing that the scene has made ready is used, nor what the other one has.
+    /// The body anew, twice: neither uses data that the scene or the other one has prepared.
     breakables: [Breakable; 2],
 }
 
@@ -219,7 +219,7 @@ impl Blow {
         })
     }
 
-    /// Asks bodies of other seeds whether the blow would break them at other speeds.
+    /// Asks bodies of other seeds if the blow would break them at other speeds.
     fn questions(&self, [from, to]: [f64; 2], goal: f64) -> Result<Asked, BenchError> {
         let contacts = &self.first.contacts;
         let fastest = contacts.iter().map(|c| f64::from(c.approach_speed));

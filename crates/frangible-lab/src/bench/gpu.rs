@@ -37,7 +37,7 @@ pub struct Adapter {
 pub struct Cost {
     /// Wall-clock time per impact, s.
     pub wall: f64,
-    /// CPU time of the whole process per impact, s, where the system tells, and the batch takes long enough.
+    /// CPU time of the whole process per impact, s, if the system reports it and the batch takes long enough.
     pub cpu: Option<f64>,
 }
 
@@ -46,11 +46,11 @@ pub struct Cost {
 pub struct Batch {
     /// Impacts, one contact each, each on a body of its own.
     pub impacts: usize,
-    /// Those with cracks.
+    /// Impacts with cracks.
     pub cracked: usize,
-    /// On the CPU, all its threads.
+    /// Cost on the CPU, all its threads.
     pub cpu: Cost,
-    /// On the GPU, and the CPU for what it leaves.
+    /// Cost on the GPU, and on the CPU for the impacts that the GPU leaves.
     pub gpu: Option<Cost>,
     /// The passes alone by the GPU's own clock, per impact, s, where it has one.
     pub passes: Option<f64>,
@@ -73,7 +73,7 @@ pub struct OfBody {
     pub steps: usize,
     /// Rising batches.
     pub batches: Vec<Batch>,
-    /// Why `Choice::Auto` took what it took for the largest one: with the threshold that its trial found.
+    /// Reason of the choice by `Choice::Auto` for the largest batch, with the threshold that its trial found.
     pub why: String,
 }
 
@@ -311,7 +311,7 @@ fn passes(
     Ok(times.iter().map(|t| t.seconds).sum::<f64>() / bodies.len() as f64)
 }
 
-/// Cost per impact of the fastest run, and how many impacts cracked. The first run warms up.
+/// Cost per impact of the fastest run, and number of impacts that cracked. The first run warms up.
 fn time(
     solver: &mut Solver,
     kind: &Breakable,
@@ -359,7 +359,7 @@ fn blow(kind: &Breakable, k: usize, speed: f64) -> Result<Contact, BenchError> {
     Ok(Contact::collision(asset, point, inward, speed, ball))
 }
 
-/// CPU time of this process so far, s, where the system tells in hundredths.
+/// CPU time of this process so far, s, if the system reports it in hundredths.
 fn cpu_seconds() -> Option<f64> {
     let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
     let fields: Vec<&str> = stat.rsplit(')').next()?.split_whitespace().collect();

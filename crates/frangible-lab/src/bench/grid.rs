@@ -6,7 +6,7 @@ use frangible_mesh::TetBody;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
-/// Displacement of an inner node, in cells: a lattice would show in the cracks.
+/// Largest displacement of an inner node, in cells: a lattice would show in the cracks.
 const DISORDER: f64 = 0.15;
 
 /// Corners (bit 0: x, bit 1: y, bit 2: z) of the tetrahedra of a cell; of every other cell the mirrored ones, so that the
@@ -38,7 +38,7 @@ pub(crate) fn slab(size: [f64; 3], cells: [usize; 3]) -> TetBody {
                 let at = [i, j, k];
                 body.positions
                     .push(DVec3::from_array(std::array::from_fn(|a| {
-                        // What lies on a side stays on it.
+                        // A node on a side stays on it.
                         let free = at[a] > 0 && at[a] < cells[a];
                         let shift = DISORDER * random();
                         (at[a] as f64 + if free { shift } else { 0.0 }) * step[a]

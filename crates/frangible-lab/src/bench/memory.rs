@@ -10,7 +10,7 @@ use crate::bench::cache::Cache;
 use crate::bench::error::BenchError;
 use crate::bench::subjects::{MODES, Subject};
 
-/// Bodies made to count what one takes.
+/// Number of bodies that are made to count the memory of one.
 const BODIES: u64 = 16;
 
 /// Count of an allocator while something ran, bytes.
@@ -43,7 +43,7 @@ pub struct OfBody {
     pub asset: u64,
     /// Data made once from the asset, bytes: trees, bounds, connections.
     pub prepared: u64,
-    /// Each body of its kind.
+    /// Each further body of its kind.
     pub body: u64,
     /// Most memory that its break takes beside all that, pieces included.
     pub broken: u64,

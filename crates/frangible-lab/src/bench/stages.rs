@@ -30,9 +30,9 @@ pub enum Depth {
     Impulse,
     /// Refused by the amplitudes of the modes, or by clusters.
     Amplitudes,
-    /// Stresses are looked at, nothing breaks.
+    /// Stresses are computed, nothing breaks.
     Stresses,
-    /// It breaks.
+    /// The body breaks.
     Break,
 }
 

@@ -37,7 +37,7 @@ impl Times {
         self.quantile(0.5)
     }
 
-    /// All together, s.
+    /// Sum of all times, s.
     #[must_use]
     pub fn sum(&self) -> f64 {
         self.0.iter().sum()

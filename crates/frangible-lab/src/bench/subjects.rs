@@ -1,4 +1,4 @@
-//! The bodies of Table 1 of `[G12]`, as far as the paper tells them, and the blows that are ours.
+//! The bodies of Table 1 of `[G12]`, as far as the paper describes them, and the blows, which are ours.
 
 use std::sync::Arc;
 
@@ -49,13 +49,13 @@ pub struct Paper {
 }
 
 impl Paper {
-    /// All of it on the processor, ms.
+    /// Total with initiation on the processor, ms.
     #[must_use]
     pub fn cpu(&self) -> f64 {
         self.initiation_cpu + self.propagation + self.fragments
     }
 
-    /// With initiation on the graphics card, ms: the paper's column "total", but for its rounding.
+    /// Total with initiation on the graphics card, ms: the paper's column "total", but for its rounding.
     #[must_use]
     pub fn gpu(&self) -> f64 {
         self.initiation_gpu + self.propagation + self.fragments

@@ -114,11 +114,11 @@ pub struct Row {
     pub bake: f64,
     /// Reading and checking the file, s.
     pub load: f64,
-    /// From the file's content to a body, s.
+    /// Time from the file's content to a body, s.
     pub ready: f64,
-    /// In the paper's model, at 16 samples per period.
+    /// Results in the paper's model, at 16 samples per period.
     pub paper: InModel,
-    /// In the paper's model, two samples per period of the highest mode that matters: the limit that the paper names.
+    /// Results in the paper's model, at two samples per period of the highest mode that matters: the limit that the paper names.
     pub two_samples: InModel,
     /// Our model.
     pub ours: InModel,

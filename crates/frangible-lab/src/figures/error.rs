@@ -1,8 +1,8 @@
-//! Why there is no figure.
+//! Errors of the figures.
 
 use thiserror::Error;
 
-/// Why a figure could not be made.
+/// Error that keeps a figure from being made.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum FigureError {
@@ -13,7 +13,7 @@ pub enum FigureError {
         name: String,
         /// The one that was probably meant, or nothing.
         hint: String,
-        /// All there are.
+        /// All names.
         known: String,
     },
     /// The material of a body.

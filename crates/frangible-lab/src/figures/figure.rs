@@ -12,7 +12,7 @@ use crate::figures::workshop::Workshop;
 pub struct Figure {
     /// Short name, also of its picture: `fig3`.
     pub name: &'static str,
-    /// Heading: the paper's number and what it shows.
+    /// Heading: the paper's number and the subject.
     pub title: &'static str,
     /// Content of the paper's figure, Markdown.
     pub shows: &'static str,
@@ -119,11 +119,11 @@ pub fn figures_named(names: &[String]) -> Result<Vec<&'static Figure>, FigureErr
     Ok(FIGURES.iter().filter(wanted).collect())
 }
 
-/// Computes these figures one after the other; bodies that several need are baked once. `progress` hears what is done, and
-/// the share of all, 0..=1; `done` gets each figure as it is finished.
+/// Computes these figures one after the other; bodies that several need are baked once. `progress` receives the current step and the share of all
+/// that is done, 0..=1; `done` gets each figure as it is finished.
 ///
 /// # Errors
-/// The first thing that went wrong, or what `done` said.
+/// The first error, or one that `done` returned.
 pub fn compute<E: From<FigureError>>(
     figures: &[&'static Figure],
     progress: &mut dyn FnMut(&str, f64),

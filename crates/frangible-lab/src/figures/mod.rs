@@ -1,9 +1,9 @@
 //! The figures of `[G12]`, Glondu, Marchal, Dumont, *Real-Time Simulation of Brittle Fracture Using Modal Analysis*, IEEE
 //! TVCG 2012, computed anew.
 //!
-//! A [`Figure`] computes what one of the paper's figures shows, draws it, and compares what the paper claims of it with
-//! what was measured: each [`Claim`] is a number against a criterion, so that "agrees" is computed and not written.
-//! [`FIGURES`] lists them all, [`compute`] makes some of them, [`page`] makes a page of what they found.
+//! A [`Figure`] computes the content of one of the paper's figures, draws it, and compares the paper's claims with measurements: each [`Claim`] is a
+//! number against a criterion, so that "agrees" is computed and not written. [`FIGURES`] lists them all, [`compute`] makes some of them, [`page`]
+//! makes a page of their results.
 
 mod bodies;
 mod draw;

@@ -61,7 +61,7 @@ pub fn page(parts: &[(&Figure, String)], older: &str) -> String {
     )
 }
 
-/// The part of a figure in a page, without what follows.
+/// The part of a figure in a page, without the text after it.
 fn old_part<'a>(page: &'a str, figure: &Figure) -> Option<&'a str> {
     let start = page.find(&format!("{HEADING}{}\n", figure.title))?;
     let rest = &page[start + HEADING.len()..];

@@ -48,7 +48,7 @@ impl Axis {
         }
     }
 
-    /// With a range that includes this number too.
+    /// Extends the range so that it includes this number too.
     #[must_use]
     pub fn including(self, number: f64) -> Self {
         Self {
@@ -213,7 +213,7 @@ impl Chart {
         canvas.text(beside, &self.y.label, letters, true, INK);
     }
 
-    /// In the corner where it hides the fewest points.
+    /// Draws the legend in the corner where it hides the fewest points.
     fn draw_legend(&self, canvas: &mut Canvas, inside: [f64; 4], points: &[[f64; 2]]) {
         const ROW: f64 = 22.0;
         const SAMPLE: f64 = 34.0;
@@ -251,7 +251,7 @@ impl Chart {
     }
 }
 
-/// From numbers to pixels along an axis.
+/// Mapping from numbers to pixels along an axis.
 struct Ruler {
     scale: Scale,
     range: [f64; 2],

@@ -188,7 +188,7 @@ impl Spectrogram<'_> {
     }
 }
 
-/// From white by yellow and red to black, ever darker: the louder the darker.
+/// Colour of a level, from white by yellow and red to black: the louder the darker.
 fn colour(share: f32) -> Colour {
     const STOPS: [[f32; 3]; 5] = [
         [255.0, 255.0, 255.0],

@@ -13,7 +13,7 @@ use crate::reference::options::Strain;
 pub enum Field {
     /// The paper's: the elements that carry the modes are those that crack, linear, with the displacements at their nodes.
     Linear,
-    /// The asset's: quadratic elements, looked at where the centre of each fracture element lies in them.
+    /// The asset's: quadratic elements, evaluated where the centre of each fracture element lies in them.
     Embedded,
 }
 

@@ -43,7 +43,7 @@ fn admissible(solid: &Solid, modal_impulse: &[f64], mut duration: f64, brought: 
     (duration, margin)
 }
 
-/// A contact and what the modes see of it.
+/// A contact and its coupling to the modes.
 struct Touch {
     /// Number of the surface triangle.
     triangle: u32,
@@ -296,7 +296,7 @@ fn sampled(
     for (i, &lambda) in modes.eigenvalues.iter().enumerate() {
         let q = excitation(modal_impulse[i], lambda, a);
         total += q * f64::from(modes.peak_stress[i]);
-        // What the mode moves beside its answer to a slow force; a and u are those of a unit impulse: 2 a = u.
+        // Motion of the mode beside its answer to a slow force; a and u are those of a unit impulse: 2 a = u.
         let mut beside = q;
         margin = margin.min((lambda / (2.0 * u * u) - 1.0).abs());
         if lambda > 2.0 * u * u {

@@ -67,7 +67,7 @@ pub fn fracture(
     run(body, contacts, field, options, usize::MAX)
 }
 
-/// Runs [`fracture`] until a first crack has run: what follows it may be another model's.
+/// Runs [`fracture`] until a first crack has run: later cracks may be another model's.
 ///
 /// # Errors
 /// The same as [`fracture`].
@@ -240,7 +240,7 @@ fn start(
     let surface = Surface::new(solid.centres[e], &sigma, material, body.seed(), e);
     let x = solid.corners(e);
     let values = x.map(|p| surface.s(p));
-    // A wave of the noise may carry the surface past the corners: the paper does not say what then.
+    // A wave of the noise may carry the surface past the corners: the paper does not treat that case.
     let missed = area(x, values) <= 0.0;
     let mut margin = f64::INFINITY;
     if missed {

@@ -1,9 +1,9 @@
 //! Glondu, Marchal, Dumont, *Real-Time Simulation of Brittle Fracture Using Modal Analysis*, IEEE TVCG 2012, cited as
 //! `[G12]`, word for word: the oracle that `frangible` is compared with.
 //!
-//! Everything in f64, one number at a time: at every step the displacements of all nodes, at every weak element the
-//! stress, no bound that spares a look. It shares no code with the pipeline, only plain input (the arrays of an asset,
-//! contacts, weak points), where its free surface is (`Skin`), the noise function and the random generator.
+//! Everything in f64, one number at a time: at every step the displacements of all nodes, at every weak element the stress, and no bound that saves
+//! work. It shares no code with the pipeline, only plain input (the arrays of an asset, contacts, weak points), the free surface (`Skin`), the noise
+//! function and the random generator.
 //!
 //! | `[G12]` | here |
 //! |---|---|

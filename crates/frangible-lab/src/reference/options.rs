@@ -13,16 +13,16 @@ pub struct Options {
     pub energy_test: EnergyTest,
     /// Rule by which nodes belong together. Default: [`Marks::Elements`].
     pub marks: Marks,
-    /// Beyond the paper: the duration grows by 5 % at a time until the vibration's energy, at 40 instants of the contact,
-    /// is at most what the approach brought. Default: off.
+    /// Beyond the paper: the duration grows by 5 % at a time until the vibration's energy, at 40 instants of the contact, is at most the energy of
+    /// the approach. Default: off.
     pub admissible: bool,
     /// Beyond the paper: the waves go on after the contact, for 1.5 periods of the lowest mode that is excited to 5 % of
     /// the most excited one. Default: off.
     pub after_contact: bool,
     /// Beyond the paper: the element where a crack starts must pay for its own area. Default: off.
     pub first_element_pays: bool,
-    /// Beyond the paper: a weak element with a free outer face is looked at on the largest one, where its flaw lies and no
-    /// traction acts; in a thin wall none acts across the wall. Default: off.
+    /// Beyond the paper: a weak element with a free outer face is tested on the largest one, where its flaw lies and no traction acts; in a thin wall
+    /// none acts across the wall. Default: off.
     pub surface_flaws: bool,
     /// Beyond the paper: of the elements that pass R_c between two steps the first to do so, stress taken as linear there,
     /// starts first, and not the most stressed one. Default: off.
@@ -61,9 +61,8 @@ pub enum TimeStep {
     AsPrinted,
     /// The largest step that the sampling theorem allows: `π / Im ω_high`, half a period.
     Nyquist,
-    /// A whole number of steps, at least 16, per contact, with this many per period of the highest mode that matters:
-    /// what the modes above it swing beside their answer to a slow force holds together at most 2 % of the sum of all
-    /// modes' stress bounds.
+    /// A whole number of steps, at least 16, per contact, with this many per period of the highest mode that matters: beside their answer to a slow
+    /// force, the modes above it contribute together at most 2 % of the sum of all modes' stress bounds.
     Sampled {
         /// Steps per period.
         per_period: f64,

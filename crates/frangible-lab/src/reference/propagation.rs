@@ -14,7 +14,7 @@ use crate::reference::surface::{Surface, area};
 pub struct Crack {
     /// Time step at which it started, from 0.
     pub step: usize,
-    /// When it started, in steps: at that step's end, or between the two.
+    /// Time at which it started, in steps: at that step's end, or between the two.
     pub time: f64,
     /// Its elements in the order they joined.
     pub elements: Vec<Element>,

@@ -111,7 +111,7 @@ fn largest_free_face(solid: &Solid, e: usize) -> Option<(u32, DVec3)> {
     best
 }
 
-/// Stress at a free surface of this normal: the strain across it is what leaves no traction.
+/// Stress at a free surface of this normal: the strain across it is such that no traction is left.
 fn free_of_one(material: &Material, strain: &Matrix, n: DVec3) -> (Matrix, f64) {
     let nu = material.poisson_ratio;
     let frame = frame(n, n.any_orthonormal_vector());

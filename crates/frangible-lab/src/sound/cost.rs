@@ -10,7 +10,7 @@ use frangible_sound::{
     AudibleDamping, Listener, Plate, PlateMaterial, Pulse, Strike, Synth, SynthConfig,
 };
 
-/// Samples that are rendered at once, and how often: the fastest time counts, which nothing else on the machine has held up.
+/// Samples that are rendered at once, and number of repetitions: the fastest time counts, which nothing else on the machine has held up.
 const FRAMES: usize = 4800;
 const ROUNDS: usize = 40;
 

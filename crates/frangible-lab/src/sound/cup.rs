@@ -153,7 +153,7 @@ impl Cup {
     }
 }
 
-/// The cup as it sounds, and what a newton gives its modes on its wall near the rim at an angle about z; the handle is at −y.
+/// The cup as it sounds, and the modal forces of a newton on its wall near the rim at an angle about z; the handle is at −y.
 fn at_rim(cup: &Body, angle: f64) -> Result<(frangible_sound::Body, Vec<f32>), Box<dyn Error>> {
     let damping = AudibleDamping::of(&cup.asset().material);
     let (shape, body) = AssetSound::new(cup, &damping, Hold::Free)?;

@@ -118,8 +118,8 @@ impl Faces {
         self.rows.len()
     }
 
-    /// Follows the modes through a blow and for a time after it, s, by steps of `step`, s; what the faces give is noted as its mean over `every`
-    /// steps.
+    /// Follows the modes through a blow and for a time after it, s, by steps of `step`, s; the forces of the faces are noted as their mean over
+    /// `every` steps.
     pub(super) fn follow(
         &self,
         tones: &[Tone],

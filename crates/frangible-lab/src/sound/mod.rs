@@ -1,7 +1,7 @@
 //! Struck and broken things, heard: `frangible-lab sound`.
 //!
-//! Closed forms and published spectra stand beside what the synthesiser makes of baked bodies. The tests of `frangible-sound` check the
-//! radiation of spheres, energies and onsets; here are whole bodies.
+//! Closed forms and published spectra stand beside the synthesiser's results for baked bodies. The tests of `frangible-sound` check the radiation of
+//! spheres, energies and onsets; here are whole bodies.
 
 mod cost;
 mod cup;
@@ -20,7 +20,7 @@ pub use scenes::{Drop, HeardScene};
 /// Samples per second.
 const RATE: f64 = 48_000.0;
 
-/// Everything on the page.
+/// Results of the page.
 #[derive(Clone, Debug)]
 pub struct Heard {
     /// Bodies struck once, with their partials.
@@ -36,7 +36,7 @@ pub struct Heard {
 }
 
 impl Heard {
-    /// Computes it all: minutes. `hear` hears the share done, 0..=1.
+    /// Computes everything: minutes. `hear` receives the share done, 0..=1.
     ///
     /// # Errors
     /// What the bake, the scenes or the synthesiser refused.

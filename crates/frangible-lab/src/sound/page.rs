@@ -14,7 +14,7 @@ use crate::plot::{Spectrogram, png};
 const SIZE: (u32, u32) = (760, 420);
 
 impl Heard {
-    /// The page; its pictures lie in a folder beside it. Without timings but for what a tone costs, so that the same build writes the same page.
+    /// The page; its pictures lie in a folder beside it. Without timings but for the cost of a tone, so that the same build writes the same page.
     ///
     /// # Errors
     /// A picture that could not be encoded.

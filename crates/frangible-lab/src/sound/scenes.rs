@@ -23,7 +23,7 @@ pub struct HeardScene {
     pub pieces: usize,
     /// Strikes on something, and cracks that were heard.
     pub events: [usize; 2],
-    /// When the first sound should arrive by the first blow and its way, and when it does, s.
+    /// Time of the first sound, s: as expected from the first blow and the distance, and as heard.
     pub onset: [f64; 2],
     /// The loudest pressure, dB over 20 µPa: full scale of its WAV.
     pub loudest: f64,
@@ -39,8 +39,8 @@ pub struct HeardScene {
     pub samples: Vec<f32>,
     /// Energy that the scene lost, J.
     pub lost: f64,
-    /// All sources together, blows, cracks, touches and slides by themselves: energy that they send, J, and at 1 m the loudest pressure and the
-    /// highest level of a meter set to *fast*, dB.
+    /// Energy radiated, J, and at 1 m the loudest pressure and the highest level of a meter set to *fast*, dB: of all sources together, and of blows,
+    /// cracks, touches and slides by themselves.
     pub sources: [[f64; 3]; 5],
 }
 
@@ -107,7 +107,7 @@ impl HeardScene {
     }
 }
 
-/// Sound of each source of a scene, heard at 1 m from the camera's target.
+/// Measures of the sources of a scene at 1 m from the camera's target, as in [`HeardScene::sources`].
 fn sources(run: &Run, scene: &Scene) -> Result<[[f64; 3]; 5], SoundError> {
     let mut config = sound_config(run, scene);
     let target = run.recording.camera.target.as_dvec3();

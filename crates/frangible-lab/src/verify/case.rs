@@ -19,7 +19,7 @@ pub struct Case {
     pub(crate) compute: Compute,
 }
 
-/// Computes a case; hears the share done, 0..=1.
+/// Computes a case; the callback receives the share done, 0..=1.
 pub(crate) type Compute = fn(&mut dyn FnMut(f64)) -> Result<Findings, BakeError>;
 
 /// Results of a case.
@@ -75,7 +75,7 @@ pub fn case(name: &str) -> Option<&'static Case> {
 }
 
 impl Case {
-    /// Computes it; `progress` hears the share done, 0..=1.
+    /// Computes it; `progress` receives the share done, 0..=1.
     ///
     /// # Errors
     /// [`VerifyError::Bake`] when the code under test refuses to compute it at all.
@@ -91,7 +91,7 @@ impl Plot {
     /// The chart as a PNG file.
     ///
     /// # Errors
-    /// [`VerifyError::Plot`] with what the encoder said.
+    /// [`VerifyError::Plot`] with the encoder's error.
     pub fn png(&self, width: u32, height: u32) -> Result<Vec<u8>, VerifyError> {
         png(self.name, &self.chart.draw(width, height))
     }

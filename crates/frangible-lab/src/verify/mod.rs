@@ -33,7 +33,7 @@ use crate::plot;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum VerifyError {
-    /// The bake, or the fracture code, refused what a case gave it.
+    /// The bake, or the fracture code, refused the input of a case.
     #[error("the case `{case}` could not be computed: {source}")]
     Bake {
         /// Name of the case.
@@ -49,7 +49,7 @@ pub enum VerifyError {
         /// Error of the material.
         source: UnknownMaterial,
     },
-    /// The fracture code refused what an experiment gave it.
+    /// The fracture code refused the input of an experiment.
     #[error("the experiment `{case}` could not be computed: {source}")]
     Impact {
         /// Name of the experiment.

@@ -1,4 +1,4 @@
-//! Finite-element models of shapes, and their modes: what the cases have in common.
+//! Finite-element models of shapes, and their modes, for all cases.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;

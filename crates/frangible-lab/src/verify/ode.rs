@@ -1,4 +1,4 @@
-//! An integrator of ordinary differential equations that shares nothing with what it judges.
+//! An integrator of ordinary differential equations that shares nothing with the code that it judges.
 //!
 //! Dormand and Prince's pair of orders 5 and 4 with adaptive steps: J. R. Dormand, P. J. Prince, *A family of embedded
 //! Runge–Kutta formulae*, J. Comp. Appl. Math. 6, 19 (1980).

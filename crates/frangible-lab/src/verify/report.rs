@@ -58,7 +58,7 @@ pub fn tolerance(check: &Check) -> String {
     }
 }
 
-/// In per cent where the tolerance is relative and 0.01 % or more, else as it is.
+/// Formats an error in per cent if the tolerance is relative and 0.01 % or more, else as it is.
 fn in_kind(check: &Check, error: f64) -> String {
     let decade = error.log10().floor();
     if check.reference != 0.0 && check.tolerance >= 0.99e-4 {
@@ -78,7 +78,7 @@ fn in_kind(check: &Check, error: f64) -> String {
     }
 }
 
-/// The value of a check, with what is only rounding left out.
+/// The value of a check, without digits that are only rounding.
 #[must_use]
 pub fn value(check: &Check) -> String {
     if check.reference == 0.0 {

@@ -1,4 +1,4 @@
-//! `frangible-lab bench`: the figures are there and fit together; what cannot be measured is refused.
+//! `frangible-lab bench`: the figures are there and fit together; an impossible measurement is refused.
 
 use super::{Folder, lab, refused, text};
 
@@ -17,7 +17,7 @@ fn a_body_of_table_1_is_baked_once_and_measured() {
     let (first, second) = (measured(), measured());
     let row = &first["table1"][0];
     assert_eq!(row["subject"]["name"], "slab-low");
-    // The second run read what the first one baked, and broke it the same way.
+    // The second run read the bakes of the first, and broke them the same way.
     assert_eq!(row["bake"], second["table1"][0]["bake"]);
     for model in ["paper", "two_samples", "ours"] {
         let (a, b) = (&row[model], &second["table1"][0][model]);

@@ -1,4 +1,4 @@
-//! `frangible-lab compare`: what bad input is told, and what good input leaves behind.
+//! `frangible-lab compare`: the messages for bad input, and the files left by good input.
 
 use std::fs;
 

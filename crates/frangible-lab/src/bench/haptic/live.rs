@@ -1,4 +1,4 @@
-//! Vibration that goes on from tick to tick: what a loop needs that feels, shows or sounds a body while it is touched.
+//! Vibration that goes on from tick to tick, for a loop that feels, shows or sounds a body while it is touched.
 //!
 //! Theory: a tick is long against the periods of most modes (1 ms against 0.01 to 0.5 ms for a small plate), so no scheme
 //! that samples them would do. Forces are taken as linear over a tick, from their last value to the next; then the state
@@ -16,7 +16,7 @@ use frangible::internals::error::{finite, positive};
 use frangible::internals::modal::Tick;
 use frangible::{Body, InputError};
 
-/// A place on a body's surface, with what its modes see of it. [`SurfacePlace::seek`] moves it without allocating.
+/// A place on a body's surface, with the mode shapes there. [`SurfacePlace::seek`] moves it without allocating.
 #[derive(Clone, Debug)]
 pub struct SurfacePlace {
     /// Position, m, body frame.
@@ -73,12 +73,12 @@ pub struct LiveModes {
     modes: Vec<LiveMode>,
 }
 
-/// A mode: its state and what a tick does to it.
+/// A mode: its state, and its change over a tick.
 #[derive(Clone, Copy, Debug)]
 struct LiveMode {
     /// ω, rad/s.
     frequency: f64,
-    /// (ω q, q̇) after a tick from (ω q, q̇, force at its beginning, what the force grows by).
+    /// Matrix that takes (ω q, q̇, force at the tick's beginning, increase of the force) to (ω q, q̇) after the tick.
     step: [[f64; 4]; 2],
     /// (ω q, q̇).
     state: [f64; 2],
@@ -89,7 +89,7 @@ struct LiveMode {
 }
 
 impl LiveMode {
-    /// At rest: ω, rad/s; damping d, 1/s; tick, s.
+    /// A mode at rest: ω, rad/s; damping d, 1/s; tick, s.
     fn new(frequency: f64, damping: f64, tick: f64) -> Self {
         let Tick { own, held, ramp } = Tick::new(frequency, damping, tick);
         Self {
@@ -112,7 +112,7 @@ impl LiveMode {
 }
 
 impl LiveModes {
-    /// At rest, for ticks of this length, s.
+    /// Modes at rest, for ticks of this length, s.
     ///
     /// # Errors
     /// A tick that is not above zero, or not finite.
@@ -135,7 +135,7 @@ impl LiveModes {
         }
     }
 
-    /// A tick further: each force goes in a straight line from its last value to what was pushed with since.
+    /// Steps by a tick: each force goes in a straight line from its last value to the sum of the pushes since.
     pub fn step(&mut self) {
         self.modes.iter_mut().for_each(LiveMode::advance);
     }

@@ -135,7 +135,7 @@ pub fn measure(
     let paced = if options.paced {
         progress("ticks of 1 ms", runs as f64 / of_all);
         let log = play(&kind, options.ticks, true)?;
-        // The clock must not change what is felt.
+        // The clock must not change the forces and displacements.
         best.same(&log)?;
         Some(log)
     } else {
@@ -175,7 +175,7 @@ fn play(kind: &Breakable, ticks: u64, paced: bool) -> Result<Log, BenchError> {
     let top = positions.map(|p| p.z).fold(f32::NEG_INFINITY, f32::max);
     let mut hand = Hand::new(HEAD as f32, radius, top, 1);
     let mut plate = 1;
-    // A tick has no time to work out what a first blow asks for.
+    // A tick has no time for the data that a first blow prepares.
     let fresh = |plate| {
         let body = kind.body(plate);
         body.prepare_for_blows(&config);
@@ -258,7 +258,7 @@ impl Log {
         )))
     }
 
-    /// With the lesser time of each tick.
+    /// Takes the lesser time of each tick.
     fn least(mut self, other: &Self) -> Result<Self, BenchError> {
         self.same(other)?;
         for ((_, time), (_, t)) in self.times.iter_mut().zip(&other.times) {
@@ -307,7 +307,7 @@ impl Clock {
             std::thread::sleep(early);
         } else if now.duration_since(*next) > LATE {
             self.late += 1;
-            // What was missed is missed.
+            // Missed ticks are not made up for.
             *next = now;
         }
         *next += Duration::from_secs_f64(TICK);

@@ -1,4 +1,4 @@
-//! A tick: where the probe is and how fast, in; force, displacement of the surface and news of the body, out.
+//! A tick: position and velocity of the probe in; force, displacement of the surface and news of the body out.
 //!
 //! - The force is that of a spring and a damper along the surface's normal, as haptic devices render contact: kilonewtons per
 //!   metre, a hundredth of what the surface itself would answer with. While the probe is inside, the surface point slides with it and
@@ -22,7 +22,7 @@ use super::live::{LiveModes, SurfacePlace};
 /// Length of a tick, s.
 pub const TICK: f64 = 1e-3;
 
-/// Ticks from a blow to its pieces: twice what a break of 8 000 tetrahedra takes one core.
+/// Ticks from a blow to its pieces: twice the time that a break of 8 000 tetrahedra takes one core.
 pub const DELAY: u64 = 24;
 
 /// Tip of the probe, and the spring and damper of its contact.
@@ -43,9 +43,9 @@ pub struct Probe {
 pub enum Kind {
     /// The probe touches nothing.
     Free,
-    /// It presses or slides.
+    /// The probe presses or slides.
     Contact,
-    /// It has just met the surface, too softly for any crack.
+    /// The probe has just met the surface, too softly for any crack.
     Blow,
     /// A crack may start: another thread looks for cracks and pieces.
     Asked,
@@ -88,7 +88,7 @@ pub struct Touch {
     live: LiveModes,
     place: SurfacePlace,
     inside: bool,
-    /// It broke: there is nothing left to touch.
+    /// True once it broke: there is nothing left to touch.
     gone: bool,
     tick: u64,
     judge: Judge,
@@ -132,7 +132,7 @@ impl Touch {
         self.judge.is_due(self.tick + 1)
     }
 
-    /// Who makes cracks and pieces.
+    /// The judge, which makes cracks and pieces.
     pub fn judge(&mut self) -> &mut Judge {
         &mut self.judge
     }
@@ -196,7 +196,7 @@ impl Touch {
         }
     }
 
-    /// Asks whether a crack starts, where none is looked for yet; what came of it.
+    /// Asks if a crack starts, unless one is being computed already. Returns the kind of the tick.
     fn question(
         &mut self,
         first: bool,

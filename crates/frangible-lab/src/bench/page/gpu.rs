@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::{ms, table};
 use crate::bench::gpu::{Cost, Everywhere, Findings, OfBody};
 
-/// Times per impact by the size of the batch, and what was chosen.
+/// Table of the times per impact by the size of the batch, with the choice.
 #[must_use]
 pub fn gpu(found: &Findings) -> String {
     let mut text = match &found.adapter {

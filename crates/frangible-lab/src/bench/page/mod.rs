@@ -206,7 +206,7 @@ fn whole(rows: &[Row], pick: fn(&Row) -> &InModel, reference: bool) -> String {
     table(&header, &rows.iter().map(cells).collect::<Vec<_>>())
 }
 
-/// The goals of whole impacts beside what came out, and which stage takes most where the first is missed.
+/// Table of the goals of whole impacts beside the results, with the stage that takes most where the first goal is missed.
 fn goals(rows: &[Row], pick: fn(&Row) -> &InModel, reference: bool) -> String {
     let (mut missed, mut stages) = (0, BTreeMap::<&str, usize>::new());
     for row in rows {

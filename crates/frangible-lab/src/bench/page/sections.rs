@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use crate::bench::machine::Machine;
 
-/// A section: its heading and what stands below.
+/// A section: its heading and its text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Section {
     title: String,
@@ -96,8 +96,8 @@ impl Section {
     }
 }
 
-/// The page with these sections in the place of its own; `known` is the page so far. What is not measured anew stays, and
-/// so do sections of other headings, where they stand.
+/// Puts these sections in their places on the page; `known` is the page so far. Sections that are not measured anew stay, and so do sections of other
+/// headings, where they stand.
 #[must_use]
 pub fn with_sections(known: Option<&str>, new: &[Section]) -> String {
     let mut sections = split(known.unwrap_or_default());
@@ -118,7 +118,7 @@ pub fn with_sections(known: Option<&str>, new: &[Section]) -> String {
     page
 }
 
-/// The sections of a page, without what stands before the first.
+/// The sections of a page, without the text before the first.
 fn split(page: &str) -> Vec<Section> {
     let mut sections: Vec<Section> = Vec::new();
     for line in page.lines() {

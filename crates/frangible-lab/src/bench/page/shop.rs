@@ -9,7 +9,7 @@ use crate::bench::stats::Spread;
 /// Targets, s: our share and whole frames at the 99th percentile, the worst frame.
 const TARGETS: [f64; 3] = [6e-3, 1.0 / 60.0, 33e-3];
 
-/// Frame times and their parts, and whether the targets are met.
+/// Table of frame times and their parts, and of the targets.
 #[must_use]
 pub fn shop(found: &Findings) -> String {
     let row = |title: String, s: Spread| vec![title, ms(s.p50), ms(s.p99), ms(s.max), ms(s.mean)];

@@ -1,4 +1,4 @@
-//! Operations and bytes of the initiation, counted in the source: what it has to do, not what a compiler makes of it.
+//! Operations and bytes of the initiation, counted in the source: the necessary work, not the work of the compiled code.
 
 use frangible::internals::stress::{DisplacementBatch, Law};
 

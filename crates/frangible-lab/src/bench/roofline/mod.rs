@@ -24,13 +24,13 @@ pub use peak::{Arithmetic, Memory, SIZES};
 /// Bodies that are measured where none is named.
 pub const BODIES: [&str; 3] = ["glass", "slab-moderate", "rabbit"];
 
-/// Strengths are multiplied with this, so that nothing breaks and every weak point is looked at to the end.
+/// Factor of the strengths, so that nothing breaks and every weak point is analysed to the end.
 const TOUGHER: f64 = 1e6;
 /// The best of so many runs counts: others may use the machine.
 const RUNS: usize = 60;
-/// Displacements and stresses are looked at for so many batches only, so that a run is over before the next one's turn.
+/// Number of batches for which displacements and stresses are computed: a run is over before the next one's turn.
 const BATCHES: usize = 2;
-/// A body's stresses are looked at again and again for so long, each time after a pause.
+/// Time for which a body's stresses are computed again and again, each time after a pause.
 const BUDGET: Duration = Duration::from_secs(2);
 const NAP: Duration = Duration::from_millis(2);
 

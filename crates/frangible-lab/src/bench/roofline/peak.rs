@@ -26,7 +26,7 @@ pub const SIZES: [(&str, usize); 3] = [
 pub struct Arithmetic {
     /// f32, multiply and add as one instruction, operations a second (two each).
     pub fused: f64,
-    /// f32, one multiplication and one addition: what the run time does, whose bits must not hang on the processor.
+    /// f32, one multiplication and one addition: the run time's operations, whose bits must not depend on the processor.
     pub separate: f64,
     /// Operations in f64, one multiplication and one addition.
     pub double: f64,

@@ -1,5 +1,4 @@
-//! Rapier alone in the same shop, with everything that will break in pieces from the beginning: what the rigid bodies cost
-//! whoever breaks nothing.
+//! Rapier alone in the same shop, with everything that will break in pieces from the beginning: the cost of the rigid bodies without any break.
 
 use std::time::Instant;
 

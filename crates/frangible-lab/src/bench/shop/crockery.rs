@@ -11,7 +11,7 @@ use crate::bench::error::BenchError;
 const TETS: [f64; 2] = [1500.0, 1500.0];
 const MODES: usize = 40;
 
-/// A kind of object, and how far its centre of mass is above its foot, m.
+/// A kind of object, and the height of its centre of mass above its foot, m.
 pub(crate) struct Kind {
     pub(crate) breakable: Breakable,
     pub(crate) foot: f32,

@@ -14,7 +14,7 @@ const BOARDS: usize = 5;
 const COLUMNS: usize = 2;
 /// Things on a plank: ten along it, two across.
 const PLACES: [usize; 2] = [10, 2];
-/// From rack to rack, board to board and thing to thing, m.
+/// Distances between racks, boards and things, m.
 const RACK: f32 = 1.2;
 const BOARD: f32 = 0.36;
 const PLACE: f32 = 0.17;

@@ -1,7 +1,7 @@
 //! A bull in a china shop: a thousand breakable things on planks, a ball of 400 kg at 7 m/s, frame times.
 //!
-//! Every run gives the same bits, so a frame's time is its least over the runs, and percentiles are over frames. Beside it the
-//! same shop in Rapier alone, with what will break in pieces from the beginning.
+//! Every run gives the same bits, so a frame's time is its least over the runs, and percentiles are over frames. Beside it the same shop in Rapier
+//! alone, with everything that will break in pieces from the beginning.
 
 mod alone;
 mod crockery;
@@ -69,7 +69,7 @@ pub struct Findings {
     pub alone: Vec<f64>,
     /// Pieces that Rapier alone has from the beginning.
     pub pieces: usize,
-    /// Memory that a thing in the shop takes, with all that Rapier keeps of it, bytes; where the system tells.
+    /// Memory of a thing in the shop, with all that Rapier keeps of it, bytes; if the system reports it.
     pub bytes_per_thing: Option<f64>,
     /// A number made of all bodies in the end; it is the same in every run.
     pub fingerprint: String,
@@ -173,7 +173,7 @@ fn bytes_per_thing(kinds: &[crockery::Kind]) -> Result<Option<f64>, BenchError> 
     Ok(Some((used[SHOPS - 1] - used[FIRST - 1]) / things as f64))
 }
 
-/// Memory of this process, bytes, where the system tells.
+/// Memory of this process, bytes, if the system reports it.
 fn resident() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|l| l.starts_with("VmRSS:"))?;

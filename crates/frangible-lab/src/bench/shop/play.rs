@@ -26,11 +26,11 @@ pub(super) const DELAY: usize = 8;
 /// Times of a frame, s.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Frame {
-    /// All of it.
+    /// Time of the whole frame.
     pub all: f64,
     /// Rapier's step.
     pub rigid: f64,
-    /// All but Rapier's step.
+    /// Time of the frame without Rapier's step.
     pub ours: f64,
     /// Parts of that time: [`PARTS`].
     pub parts: [f64; 5],

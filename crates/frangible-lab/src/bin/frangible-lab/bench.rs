@@ -1,4 +1,4 @@
-//! `frangible-lab bench`: how fast it is.
+//! `frangible-lab bench`: benchmarks.
 
 use std::error::Error;
 use std::path::Path;
@@ -181,7 +181,7 @@ fn measure(
     })
 }
 
-/// Puts what was measured into its sections of the page.
+/// Puts the measurements into their sections of the page.
 fn write(folder: &Path, machine: &Machine, parts: &[Part]) -> Result<(), Box<dyn Error>> {
     let path = folder.join(PAGE);
     let known = std::fs::read_to_string(&path).ok();

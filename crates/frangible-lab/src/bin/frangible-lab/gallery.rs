@@ -22,7 +22,7 @@ use crate::output::{Bar, say};
 const WIDTH: u32 = 960;
 const QUALITY: u8 = 90;
 
-/// The film: scenes and how many times slower than they are.
+/// The film: scenes, each with the factor by which it is slowed down.
 const FILM: [(&str, f64); 5] = [
     ("wine-glass", 12.0),
     ("statue", 8.0),
@@ -51,7 +51,7 @@ pub(crate) fn run(args: &GalleryArgs) -> Result<(), Box<dyn Error>> {
     } else {
         &args.scenes
     };
-    // A wrong name is told before minutes of work.
+    // A wrong name is reported before minutes of work.
     for name in scenes {
         scene(name)?;
     }

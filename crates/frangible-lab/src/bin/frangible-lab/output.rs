@@ -17,7 +17,7 @@ pub(crate) fn say(text: &str) -> io::Result<()> {
     }
 }
 
-/// One line on the error stream that says what is being done; nothing where that is no terminal.
+/// A progress line on the error stream; nothing if that is no terminal.
 pub(crate) struct Bar {
     shown: bool,
     /// The percentage shown now, so that a thousand calls do not write a thousand lines.
@@ -31,7 +31,7 @@ impl Bar {
         Self { shown, percent }
     }
 
-    /// Shows what is being done and which share of the command is behind.
+    /// Shows the current step, and the share of the command that is done.
     pub(crate) fn show(&self, message: &str, share: f64) {
         let percent = (100.0 * share.clamp(0.0, 1.0)) as u32;
         if self.shown && self.percent.swap(percent, Ordering::Relaxed) != percent {
@@ -96,7 +96,7 @@ impl<'a> Page<'a> {
         Ok(files)
     }
 
-    /// Writes the page, and says what stands on it and which files were written, with `json` for programs.
+    /// Writes the page, and reports its contents and the written files, with `json` for programs.
     pub(crate) fn tell(
         &self,
         page: frangible_lab::page::Page,

@@ -81,7 +81,7 @@ fn broken(threads: usize, hear: &(dyn Fn(f64) + Sync)) -> Result<Vec<Broken>, Bo
     Ok(all)
 }
 
-/// The bodies of a scene, broken by what breaks the scene's own.
+/// The bodies of a scene, broken by the blows of the scene.
 fn of_scene(name: &str) -> Result<Vec<Broken>, Box<dyn Error>> {
     let mut scene = frangible_scenes::scene(name)?;
     scene.duration = DURATION;

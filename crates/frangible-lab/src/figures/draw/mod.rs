@@ -1,4 +1,4 @@
-//! From computed things to pictures.
+//! Draws computed things.
 
 mod compose;
 mod model;

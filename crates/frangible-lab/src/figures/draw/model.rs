@@ -27,7 +27,7 @@ impl Model {
         self.smooth(colour, [a, b, c], [normal; 3]);
     }
 
-    /// A flat triangle to be seen from both sides.
+    /// A flat triangle that is visible from both sides.
     pub(crate) fn sheet(&mut self, colour: Colour, [a, b, c]: [Vec3; 3]) {
         self.flat(colour, [a, b, c]);
         self.flat(colour, [a, c, b]);

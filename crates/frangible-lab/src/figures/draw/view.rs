@@ -21,7 +21,7 @@ pub(crate) struct Look {
 /// Vertical field of view, rad: long enough a lens that parallels look parallel.
 const FIELD: f32 = 0.35;
 
-/// Free around what is shown, as a share of its size.
+/// Free margin around the subject, as a share of its size.
 const MARGIN: f32 = 1.05;
 
 /// Height of the strip that a label takes, pixels.
@@ -52,7 +52,7 @@ impl Look {
             .into())
     }
 
-    /// The view from `from`, y upwards, in which the points fill what the heading leaves.
+    /// The view from `from`, y upwards, in which the points fill the space that the heading leaves.
     fn fit(&self, points: &[Vec3], from: Vec3, heading: f32) -> View {
         let back = from.normalize_or(Vec3::Z);
         let right = Vec3::Y.cross(back).normalize_or(Vec3::X);

@@ -1,4 +1,4 @@
-//! A coarse bar and a coarse plate, broken: what Figs. 6, 9 and 10 look at.
+//! A coarse bar and a coarse plate, broken: the subjects of Figs. 6, 9 and 10.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;

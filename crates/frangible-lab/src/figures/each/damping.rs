@@ -21,7 +21,7 @@ pub(crate) const FIGURE: Figure = Figure {
     compute,
 };
 
-/// Stiffness damping α, s: the paper's two, and how it goes on.
+/// Stiffness damping α, s: the paper's two values, and a further one.
 const DAMPING: [f64; 3] = [0.0, 1e-6, 1e-5];
 
 fn compute(workshop: &mut Workshop<'_>) -> Result<Findings, FigureError> {

@@ -26,14 +26,14 @@ const MODES: usize = 80;
 
 /// Drops of the glass that are tried: tilts, degrees, and heights, m.
 const TILTS: [f32; 6] = [75.0, 100.0, 60.0, 115.0, 40.0, 130.0];
-/// The lowest drop, m, and how much higher each next one is.
+/// Height of the lowest drop, m, and factor from each drop to the next.
 const LOWEST: f64 = 0.15;
 const HIGHER: f64 = 1.08;
 
 /// Drops at each tilt: up to about 3 m.
 const DROPS: i32 = 40;
 
-/// Longest simulated time of the search, s, and of what is shown.
+/// Longest simulated time of the search, and simulated time that is shown, s.
 const SEARCHED: f64 = 1.6;
 const SHOWN: f64 = 4.0;
 
@@ -108,7 +108,7 @@ fn compute(workshop: &mut Workshop<'_>) -> Result<Findings, FigureError> {
     })
 }
 
-/// A drop and what came of it.
+/// A drop and its outcome.
 struct Drop {
     height: f64,
     tilt: f32,
@@ -205,7 +205,7 @@ fn plate(material: &str) -> Result<Run, FigureError> {
 /// Height that a body must rise before it counts as bouncing again, m.
 const RISE: f32 = 4e-3;
 
-/// At which bounce, from 1, the first body broke; `None` if it did not.
+/// Number of the bounce, from 1, at which the first body broke; `None` if it did not.
 fn bounce_of_break(run: &Run) -> Option<usize> {
     let record = run.breaks.iter().find(|b| b.body == 0)?;
     let heights = lowest_points(&run.recording);

@@ -33,7 +33,7 @@ const BALL: [f64; 4] = [0.5, 0.03, 25.0, 0.5];
 /// Balls: contact modulus E/(1 − ν²), Pa; from rubber over concrete (the fourth) to steel.
 const MODULI: [f64; 5] = [3.3e6, 1e8, 2.5e9, 3e10, 2.3e11];
 
-/// Those that are drawn: as rubber, concrete and steel.
+/// Stiffnesses that are drawn: as rubber, concrete and steel.
 const DRAWN: [(usize, &str); 3] = [(0, "soft"), (3, "medium"), (4, "stiff")];
 
 /// Time step whose force stands for the impulse in the quasi-static approach, s. The paper does not name its own.

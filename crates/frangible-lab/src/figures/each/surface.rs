@@ -91,7 +91,7 @@ fn piece(broken: &Broken) -> Model {
     model
 }
 
-/// From the smaller piece out of its crack face.
+/// Direction out of the crack face of the smaller piece.
 fn facing(broken: &Broken) -> Vec3 {
     let centres = broken
         .fracture

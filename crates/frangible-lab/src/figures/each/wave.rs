@@ -69,7 +69,7 @@ fn principal(stress: &Symmetric3) -> f32 {
     })
 }
 
-/// The slab's outside, and what a unit of each mode stresses there.
+/// The slab's outside, and the stress of a unit of each mode there.
 struct Faces {
     points: Vec<Vec3>,
     triangles: Vec<[u32; 3]>,
@@ -228,7 +228,7 @@ fn wave(body: &Body, contact: frangible::Contact, config: &FractureConfig) -> Wa
     if config.admissible_duration {
         duration = admissible_duration(asset, &load, approach_energy(&contacts), duration);
     }
-    // Beyond the contact in both models, to see what follows.
+    // Beyond the contact in both models, to show the time after it.
     let mut config = config.clone();
     config.timing = FractureConfig::default().timing;
     let pulse = pulse(asset, &load, duration, &config);
@@ -297,7 +297,7 @@ fn maps(
 ) -> Result<image::RgbImage, FigureError> {
     let all = instants.iter().flat_map(|(_, tensions)| tensions);
     let most = all.copied().fold(f32::MIN_POSITIVE, f32::max);
-    // The root shows what is far from the hit, too.
+    // The root shows parts far from the hit, too.
     let cells: Vec<ModeCell> = instants
         .iter()
         .map(|(time, tensions)| ModeCell {

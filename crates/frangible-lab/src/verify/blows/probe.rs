@@ -145,9 +145,9 @@ pub(crate) fn blow(
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Place {
     tet: u32,
-    /// From the middle of the body, m.
+    /// Position from the middle of the body, m.
     pub(crate) at: [f64; 2],
-    /// From the contact, m.
+    /// Distance from the contact, m.
     pub(crate) distance: f64,
 }
 

@@ -32,7 +32,7 @@ impl Strike {
         self.force.iter().copied().fold(0.0, f64::max)
     }
 
-    /// Until the force is nothing for good, s.
+    /// Time until the force is zero for good, s.
     pub(crate) fn duration(&self) -> f64 {
         let last = self.force.iter().rposition(|&f| f > 0.0);
         last.map_or(0.0, |i| (i + 1) as f64 * self.step)

@@ -29,7 +29,7 @@ const BEAM: &str = "Timoshenko's beam; T. C. Huang, J. Appl. Mech. 28, 579 (1961
 const TORSION: &str = "Saint-Venant; Timoshenko and Goodier, Theory of Elasticity, §109";
 const ROD: &str = "wave equation of a thin rod";
 
-/// Modes looked at.
+/// Number of modes.
 const WANTED: usize = 12;
 
 fn compute(progress: &mut dyn FnMut(f64)) -> Result<Findings, BakeError> {

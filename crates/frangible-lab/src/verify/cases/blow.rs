@@ -255,7 +255,7 @@ fn rod() -> Result<Vec<Check>, BakeError> {
     };
     let exact = law.against(impedance, 2.0 * LENGTH / celerity, 400.0);
     let report = &found.reports()[0];
-    // The striker's own speed in the end: what it gave is its impulse.
+    // The striker's own speed in the end, from the impulse that it gave.
     let restitution = report.impulse / (mass * SPEED) - 1.0;
     let mut checks = vec![
         unit(
@@ -302,7 +302,7 @@ fn rod() -> Result<Vec<Check>, BakeError> {
     Ok(checks)
 }
 
-/// Share of what the striker lost that modes and oscillators do not hold.
+/// Share of the striker's energy loss that modes and oscillators do not hold.
 fn missing(plate: &Asset, substep: Option<f64>) -> Result<f64, BakeError> {
     let body = body(plate.clone())?;
     let found = Blow::with_substep(&body, &[ball([0.0; 2], 20.0, BALL)], &thin(), substep)?;

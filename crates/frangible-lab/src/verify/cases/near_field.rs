@@ -95,7 +95,7 @@ impl Compared {
         })
     }
 
-    /// Largest difference of what `of` makes of both, over the largest that the series has.
+    /// Largest difference of `of` between both, over its largest value in the series.
     pub(crate) fn error(&self, of: impl Fn([f64; 2]) -> f64) -> f64 {
         let all = || self.stress.iter().flatten();
         let most = all().map(|[_, s]| of(*s).abs()).fold(0.0, f64::max);

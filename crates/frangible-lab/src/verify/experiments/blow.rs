@@ -20,7 +20,7 @@ impl Projectile {
     pub(crate) fn contact(&self, steel: &Material, thickness: f64, speed: f64) -> Contact {
         let top = Vec3::new(0.0, 0.0, (0.5 * thickness) as f32);
         let striker = Striker::ball(steel, self.mass, self.radius);
-        // A projectile that stops: what the paper's model takes for the impulse.
+        // A projectile that stops: the impulse in the paper's model.
         let impulse = (self.mass * speed) as f32;
         Contact::new(top, Vec3::NEG_Z, impulse, speed as f32, striker)
     }

@@ -1,4 +1,4 @@
-//! Laws fitted to what was counted, with standard errors.
+//! Laws fitted to counts, with standard errors.
 
 /// y = k x^p through points, by least squares of the logarithms.
 #[derive(Clone, Copy, Debug, PartialEq)]

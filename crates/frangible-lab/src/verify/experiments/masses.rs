@@ -90,7 +90,7 @@ const ASTROM_3: Published = Published {
     source: "cracks that branch and merge in space, τ = (2D − 1)/D with D = 3 (Åström et al. 2004)",
 };
 
-/// Everything that was computed of masses.
+/// Results for masses.
 #[derive(Clone, Debug)]
 pub struct Masses {
     /// Plan of the computation.

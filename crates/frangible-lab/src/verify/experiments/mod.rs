@@ -1,7 +1,7 @@
 //! Is the fracture real? Counts and distributions beside published experiments, by `frangible-lab experiments`.
 //!
-//! Here nothing passes or fails: there is no exact answer, only what was measured on other bodies. [`Experiments::compute`] breaks
-//! some hundred of them, [`Experiments::page`] says what came out, with errors, and where it disagrees.
+//! Here nothing passes or fails: there is no exact answer, only measurements on other bodies. [`Experiments::compute`] breaks some hundred bodies;
+//! [`Experiments::page`] reports the results, with errors, and the disagreements.
 
 mod blow;
 mod bodies;
@@ -27,7 +27,7 @@ pub use star::{Count, StarImpact, StarPlan, StarRun, Stars};
 
 use crate::verify::VerifyError;
 
-/// All experiments, computed.
+/// Results of all experiments.
 #[derive(Clone, Debug)]
 pub struct Experiments {
     /// Radial cracks of thin plates.
@@ -45,8 +45,7 @@ const STARS: f64 = 0.5;
 const REAR: f64 = 0.2;
 
 impl Experiments {
-    /// Computes what the plans ask for; the same plans give the same bits on any number of threads. With the full plans
-    /// it takes minutes.
+    /// Computes the plans; the same plans give the same bits on any number of threads. With the full plans it takes minutes.
     ///
     /// # Errors
     /// What the bake or the impact refused.

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// Hears the share done, 0..=1, from any thread.
 pub type Hear<'a> = &'a (dyn Fn(f64) + Sync);
 
-/// Counts what is done of something.
+/// Counts the finished parts of something.
 pub(crate) struct Counter<'a> {
     done: AtomicUsize,
     all: usize,

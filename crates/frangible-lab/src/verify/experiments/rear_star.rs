@@ -91,7 +91,7 @@ pub struct RearStar {
     pub tension: f64,
 }
 
-/// Everything that was computed of rear stars.
+/// Results for rear stars.
 #[derive(Clone, Debug)]
 pub struct RearStars {
     /// Plan of the computation.

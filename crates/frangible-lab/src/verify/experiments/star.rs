@@ -1,4 +1,4 @@
-//! Radial cracks of a thin plate that a small steel projectile hits: how many, at which speed.
+//! Radial cracks of a thin plate that a small steel projectile hits: their number as a function of the speed.
 
 use frangible::internals::impact_traced;
 use frangible::{Breakable, Contact, FractureConfig, InputError, Material};
@@ -23,7 +23,7 @@ pub(crate) const RADIUS: f64 = 0.01;
 pub(crate) const CIRCLES: [f64; 4] = [RADIUS, 0.02, 0.03, 0.04];
 /// Lengths are summed between these distances from the middle, m: outside the crushed zone, off the clamped edge.
 pub(crate) const RING: [f64; 2] = [0.005, 0.045];
-/// Height of the plane on which cracks are looked at, in thicknesses above the middle: no layer of nodes lies there.
+/// Height of the plane on which cracks are counted, in thicknesses above the middle: no layer of nodes lies there.
 const SECTION: f64 = 0.13;
 
 /// Plan of the computation.
@@ -45,7 +45,7 @@ pub struct StarPlan {
     pub modes: usize,
 }
 
-/// One plate and what the projectile did to it.
+/// One plate and the projectile's effect on it.
 #[derive(Clone, Debug)]
 pub struct StarImpact {
     /// Speed of the projectile, m/s.
@@ -84,7 +84,7 @@ pub struct Count {
     pub error: f64,
 }
 
-/// Everything that was computed of stars.
+/// Results for stars.
 #[derive(Clone, Debug)]
 pub struct Stars {
     /// Plan of the computation.

@@ -284,9 +284,9 @@ fn star_or_rings(stars: &Stars) -> String {
     )
 }
 
-/// A sentence says what the radial shares of the default model and of cracks at once stand for.
+/// A sentence on the meaning of the radial shares of the default model and of cracks at once.
 fn verdict(default: f64, instant: f64) -> String {
-    // What one of them is called, and what both are where they are alike.
+    // Name of one of them, and of both where they are alike.
     let like = |share: f64| match share {
         s if s > 0.6 => ["a star more than rings", "stars more than rings"],
         s if s < 0.4 => ["rings more than a star", "rings more than stars"],

@@ -24,10 +24,10 @@ const DURATION: f64 = 54e-6;
 /// Distances of the table, and of the picture, m.
 const COLUMNS: [f64; 5] = [1e-3, 2e-3, 4e-3, 8e-3, 16e-3];
 
-/// When Zener's force is compared, s.
+/// Times at which Zener's force is compared, s.
 const TIMES: [f64; 5] = [5e-6, 10e-6, 30e-6, 60e-6, 100e-6];
 
-/// Everything on the page.
+/// Results of the page.
 #[derive(Clone, Debug)]
 pub struct NearField {
     /// Radius of the contact of the half-sine, m.
@@ -52,7 +52,7 @@ struct StressRow {
 }
 
 impl NearField {
-    /// Computes it all: half a minute. `hear` hears the share done, 0..=1.
+    /// Computes everything: half a minute. `hear` receives the share done, 0..=1.
     ///
     /// # Errors
     /// What the bake, or the fracture code, refused.

@@ -52,7 +52,7 @@ pub(crate) struct Chosen {
     pub(crate) portion: Arc<Portion>,
 }
 
-/// Up to `count` fragments, of each name as many as it has or its share, spread evenly over their sizes; by rising size.
+/// Chooses up to `count` fragments, of each name as many as it has or its share, spread evenly over their sizes; by rising size.
 pub(crate) fn choose(broken: &[Broken], count: usize) -> Vec<Chosen> {
     let mut names: Vec<(&str, Vec<Chosen>)> = Vec::new();
     for (number, body) in broken.iter().enumerate() {
@@ -78,7 +78,7 @@ pub(crate) fn choose(broken: &[Broken], count: usize) -> Vec<Chosen> {
     chosen
 }
 
-/// Equal shares of `count`; what one cannot fill, the others share.
+/// Equal shares of `count`; a share that one cannot fill goes to the others.
 fn quotas(available: &[usize], count: usize) -> Vec<usize> {
     let mut quota = vec![0; available.len()];
     let mut left = count;

@@ -153,7 +153,7 @@ fn diagonal(positions: &[Vec3]) -> f64 {
     f64::from(low.distance(high))
 }
 
-/// All of one piece, or why its full analysis was refused.
+/// Measures one piece. Returns the reason if its full analysis was refused.
 pub(crate) fn measure(
     plan: &TruthPlan,
     ways: &Ways,
@@ -173,7 +173,7 @@ pub(crate) fn measure(
     };
     let materials = [preset("stone")?, preset("steel")?];
     let size = diagonal(portion.surface_positions());
-    // What sets the speeds; the truth says what came of them.
+    // The trial body sets the speeds; the truth gives the outcomes.
     let trial = Bodies::new(broken, portion, || {
         ways.elastic(REANALYSIS, portion, &broken.body)
     });

@@ -1,8 +1,8 @@
 //! Accuracy of the ways to find how a piece vibrates. Fragments of broken bodies are each hit at three places, by every way and by a full analysis of
 //! its own: `frangible-lab pieces`.
 //!
-//! The truth is an analysis of the piece as fine as a bake's; some pieces are also meshed anew from their surface and baked,
-//! which shares neither elements nor lattice with it. Nothing passes or fails: [`Truth::page`] says what came out.
+//! The truth is an analysis of the piece as fine as a bake's; some pieces are also meshed anew from their surface and baked, which shares neither
+//! elements nor lattice with it. Nothing passes or fails: [`Truth::page`] reports the results.
 
 mod baked;
 mod chart;
@@ -68,14 +68,14 @@ impl TruthPlan {
     }
 }
 
-/// Everything that was computed.
+/// Results of the comparison.
 #[derive(Clone, Debug)]
 pub struct Truth {
     /// Plan of the computation.
     pub plan: TruthPlan,
     /// One per fragment, in the order of the bodies, smaller ones first.
     pub pieces: Vec<PieceSample>,
-    /// Those that were baked anew.
+    /// Pieces that were baked anew.
     pub baked: Vec<Rebaked>,
     /// Pieces whose full analysis was refused, with the reason.
     pub refused: Vec<String>,

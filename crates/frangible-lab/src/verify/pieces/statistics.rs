@@ -8,7 +8,7 @@ pub(crate) struct Worth {
     /// Pieces that it served, and that it refused.
     pub(crate) served: usize,
     pub(crate) refused: usize,
-    /// Size of the error of the first five frequencies: median, and what nine of ten stay below.
+    /// Size of the error of the first five frequencies: median, and 90th percentile.
     pub(crate) frequency: Option<[f64; 2]>,
     /// Size of the error of the largest tension, the same.
     pub(crate) stress: Option<[f64; 2]>,
@@ -73,7 +73,7 @@ pub(crate) fn frequency_errors(piece: &PieceSample, sample: &Sample) -> impl Ite
         .map(|(f, t)| (f / t - 1.0).abs())
 }
 
-/// For each blow, whether it is decided as the truth decides it.
+/// True for each blow that is decided as the truth decides it.
 pub(crate) fn decisions(piece: &PieceSample, sample: &Sample) -> impl Iterator<Item = bool> {
     let same = |(own, truth): (&BlowSample, &super::Blow)| own.breaks == truth.breaks;
     sample.blows.iter().zip(&piece.blows).map(same)

@@ -11,7 +11,7 @@ use frangible_bake::pieces::{Method, PieceError, Pieces};
 pub struct Way {
     /// Name in the tables.
     pub name: &'static str,
-    /// The method; [`Method::Auto`]: what [`Pieces::method_for`] says.
+    /// The method; for [`Method::Auto`] the one that [`Pieces::method_for`] returns.
     pub method: Method,
     /// Quadratic elements and modes; none: those of [`Pieces::default`], by the piece's size.
     pub size: Option<(usize, usize)>,
@@ -62,7 +62,7 @@ pub(crate) const AUTO: usize = 5;
 pub(crate) struct Ways(Vec<Pieces>);
 
 impl Ways {
-    /// All of [`WAYS`].
+    /// Makes all of [`WAYS`].
     pub(crate) fn new() -> Self {
         let ways = WAYS.map(|way| {
             let mut pieces = Pieces::new(way.method);

@@ -45,7 +45,7 @@ pub(crate) fn run(args: &CompareArgs) -> Result<(), Box<dyn Error>> {
     let bar = Bar::new(args.json);
     let (found, all, mut report) = compared(&scene, args, &methods, &bar).inspect_err(|_| {
         if !was_there {
-            // Only if it is empty, as it was made; whether that works changes nothing for the user.
+            // Removes the folder only if it is empty, as it was made. A failure changes nothing for the user.
             let _ = fs::remove_dir(&args.out);
         }
     })?;

@@ -1,4 +1,4 @@
-//! `docs/compare.md`: what the methods do, and what came out. Every sentence about an outcome is made from its numbers.
+//! `docs/compare.md`: the methods and their results. Every sentence about an outcome is made from its numbers.
 
 use std::fmt::Write;
 

@@ -7,14 +7,14 @@ use frangible_lab::page::table;
 use frangible_scenes::FirstBreak;
 use serde::Serialize;
 
-/// An impact, and what each method made of it. SI units, or named otherwise.
+/// An impact, with the result of each method. SI units unless a name says otherwise.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct CompareReport {
     pub(crate) scene: String,
     pub(crate) seed: u64,
     pub(crate) body: String,
     pub(crate) material: String,
-    /// When it was hit, s.
+    /// Time of the impact, s.
     pub(crate) time_s: f64,
     pub(crate) contacts: usize,
     pub(crate) impulse_n_s: f64,
@@ -135,7 +135,7 @@ impl CompareReport {
         )
     }
 
-    /// For the terminal.
+    /// Text for the terminal.
     pub(crate) fn text(&self) -> String {
         let rows: Vec<[String; 7]> = self.methods.iter().map(MethodReport::cells).collect();
         let all = std::iter::once(HEADINGS.map(String::from)).chain(rows);
