@@ -9,7 +9,7 @@ use crate::test::WITH_WINDOW;
 /// Sets of features by package.
 type Variants = BTreeMap<String, BTreeSet<String>>;
 
-/// Compares what cargo chooses for the two builds.
+/// Compares the features that cargo chooses for the two builds.
 pub(crate) fn features_agree() -> Result<Vec<String>> {
     let first = variants(&["--edges", "normal,build"])?;
     let [option, window] = WITH_WINDOW;

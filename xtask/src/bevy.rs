@@ -1,5 +1,5 @@
-//! The plugin for Bevy, which is a workspace of its own: lints, tests, and a project made anew that does what its page says; all without
-//! a window or a renderer. Its examples with a window are a step of their own: they draw their pictures, which are compared.
+//! The plugin for Bevy, which is a workspace of its own: lints, tests, and a project made anew by the steps of its page; all without a window or a
+//! renderer. Its examples with a window are a step of their own: they draw their pictures, which are compared.
 
 use std::path::{Path, PathBuf};
 

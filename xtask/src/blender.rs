@@ -8,7 +8,7 @@ use crate::command::{
 };
 use crate::python::{self, only_file, program_in};
 
-/// Blender as a Python module, of the version whose Python most machines have, and what runs the tests.
+/// Blender as a Python module, of the version whose Python most machines have, and the tests' runner.
 const TOOLS: [&str; 2] = ["bpy==4.5.*", "pytest>=9,<10"];
 
 /// Tries the wheel in `target/python/wheels` in Blender, after making it where there is none. Returns the lines that sum it up; one of them

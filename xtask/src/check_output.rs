@@ -1,4 +1,4 @@
-//! Checks what a run of the program wrote: the report adds up, the animation is a whole file, the picture shows something.
+//! Checks the files of a run of the program: the report adds up, the animation is a whole file, the picture is not empty.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};

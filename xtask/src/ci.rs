@@ -1,7 +1,7 @@
 //! Steps of the continuous integration, in order; `.ci/run` calls this.
 //!
-//! The gate depends neither on chance nor on how fast the machine is. The other steps run by hand, each before a change of its subject goes
-//! in; the gate's last lines name them with the day on which they last passed.
+//! The gate depends neither on chance nor on the speed of the machine. The other steps run by hand, each before a change of its subject goes in; the
+//! gate's last lines name them with the day on which they last passed.
 
 use std::path::PathBuf;
 use std::process::Command;
@@ -242,7 +242,7 @@ fn format() -> Result<Vec<String>> {
     Ok(Vec::new())
 }
 
-/// Each package compiles with the features that it can be had with, alone, as its users have it.
+/// Checks each package alone, with the features that it can be used with, as its users build it.
 fn features() -> Result<Vec<String>> {
     for words in FEATURES {
         // Code that one of them leaves unused is an error.
@@ -332,7 +332,7 @@ fn licences() -> Result<Vec<String>> {
     .map(|()| Vec::new())
 }
 
-/// The program that the tests have built breaks what it breaks unasked, on a machine without a graphics driver and without a display.
+/// Runs the program that the tests have built, without a command, on a machine without a graphics driver and without a display.
 fn main_job() -> Result<Vec<String>> {
     let mut command = Command::new(tested_program()?);
     command.current_dir(root());
@@ -350,7 +350,7 @@ fn first_run() -> Result<Vec<String>> {
     run_and_look(cargo(&["run", "--release", "--"]))
 }
 
-/// Has the program write into an empty folder, and looks at what it wrote.
+/// Has the program write into an empty folder, and checks its files.
 fn run_and_look(mut command: Command) -> Result<Vec<String>> {
     let folder: PathBuf = target().join("ci/run");
     let failed = |error| format!("`{}` cannot be made anew: {error}", folder.display());

@@ -7,7 +7,7 @@ use std::process::{Child, Command, ExitStatus, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-/// A chore's outcome: the error is one message that says what to do.
+/// A chore's outcome: the error is one message that says how to mend it.
 pub(crate) type Result<T = ()> = std::result::Result<T, String>;
 
 /// The cargo that runs this xtask, so that a toolchain override holds for its children, at the workspace's root.
@@ -87,7 +87,7 @@ pub(crate) fn succeeds(program: &str, arguments: &[&str]) -> bool {
         .is_ok_and(|status| status.success())
 }
 
-/// Runs and returns what it wrote to the standard output.
+/// Runs a command. Returns its standard output.
 pub(crate) fn output(command: &mut Command) -> Result<Vec<u8>> {
     let result = command
         .stderr(Stdio::inherit())

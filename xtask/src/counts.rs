@@ -107,7 +107,7 @@ fn tools() -> Result<Tools> {
     ])
 }
 
-/// Runs one case under callgrind and reads what it counted.
+/// Runs one case under callgrind and reads its count.
 fn count(program: &Path, body: &Path, case: &str) -> Result<Count> {
     let out: PathBuf = body.with_file_name(format!("{case}.callgrind"));
     let mut command = Command::new("valgrind");

@@ -9,8 +9,8 @@ use crate::command::{Result, cargo, copy, host, output, root, run, target};
 /// Files in the archive beside the program.
 const BESIDE: [&str; 4] = ["README.md", "CHANGELOG.md", "LICENSE-MIT", "LICENSE-APACHE"];
 
-/// Builds the program, packs it with its licences, unpacks the archive elsewhere and has what comes out of it break something. Returns
-/// lines that say what was made.
+/// Builds the program, packs it with its licences, unpacks the archive elsewhere and breaks something with the unpacked program. Returns lines that
+/// describe the archive.
 pub(crate) fn dist() -> Result<Vec<String>> {
     run(&mut cargo(&["build", "--release", "--features", "view"]))?;
     let target = target();

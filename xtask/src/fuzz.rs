@@ -20,7 +20,7 @@ const SLACK: Duration = Duration::from_secs(60);
 const BOUNDS: [&str; 2] = ["-max_len=32768", "-rss_limit_mb=2048"];
 /// Longest time for one input, s; a slower one is a finding.
 const TIMEOUT: u64 = 10;
-/// Targets that break bodies, and what one of their inputs may take, s: hundreds of pieces take seconds on a busy machine.
+/// Targets that break bodies, and longest time for one of their inputs, s: hundreds of pieces take seconds on a busy machine.
 const BREAKING: ([&str; 3], u64) = (["impact", "run_scene", "world"], 45);
 
 /// Inputs up to so many bytes are printed whole where they are found, and as many letters of each line of a panic.
@@ -132,7 +132,7 @@ fn run_target(folders: &Folders, name: &str, seconds: u64) -> Result<String> {
     };
     let program = folders.programs.join(name);
     let mut command = Command::new(&program);
-    // What is new goes into the first corpus; the others are only read.
+    // New inputs go into the first corpus; the others are only read.
     command
         .arg(grown)
         .arg(folders.fuzz.join("corpus").join(name));

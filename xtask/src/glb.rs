@@ -1,4 +1,4 @@
-//! The least of binary glTF that shows a file to be whole: header, chunks, and that buffers hold what views claim.
+//! As much of binary glTF as it takes to check that a file is whole: header, chunks, and that buffers hold the range of each view.
 
 use serde_json::Value;
 

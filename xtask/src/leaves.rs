@@ -1,8 +1,8 @@
-//! Leaves: what `cargo clippy` of the workspace does not compile, because it has a workspace or a target of its own. The gate gives them to
-//! `cargo check` where that takes seconds.
+//! Leaves: packages that `cargo clippy` of the workspace does not compile, because they have a workspace or a target of their own. The gate gives
+//! them to `cargo check` where that takes seconds.
 //!
-//! A leaf is warm where its check has passed before in its build folder, with this compiler: then the packages of others lie there. A file
-//! in the folder says so, `checked-NAME`, which holds what `rustc -vV` says.
+//! A leaf is warm if its check has passed before in its build folder, with this compiler: then the packages of others lie there. A file in the folder
+//! says so, `checked-NAME`, which holds the output of `rustc -vV`.
 
 use std::fs;
 use std::path::PathBuf;

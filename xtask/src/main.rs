@@ -67,7 +67,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// The tests that read what is checked in also write it.
+/// Runs the tests that read checked-in files so that they write them.
 fn rebake() -> Result {
     for (package, tests) in [
         ("frangible", &["fuzz_seeds::", "hostile_state::"][..]),

@@ -29,9 +29,9 @@ struct Outcome {
     bits: String,
 }
 
-/// Breaks all scenes and does what is wished.
+/// Breaks all scenes and does the task.
 pub(crate) fn outcomes(wish: &Wish<'_>) -> Result {
-    // A file that cannot be read is told before minutes are spent.
+    // An unreadable file is reported before minutes are spent.
     let before = match wish {
         Wish::Against(path) => parse(&read(path)?)?,
         _ => Vec::new(),

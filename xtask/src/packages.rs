@@ -5,7 +5,7 @@ use crate::test::packages;
 
 const LICENCES: [&str; 2] = ["LICENSE-MIT", "LICENSE-APACHE"];
 
-/// Each published package carries its licences and nothing that does not belong there.
+/// Checks that each published package carries its licences and nothing that does not belong there.
 pub(crate) fn package_lists() -> Result<Vec<String>> {
     for (name, _) in packages()?.iter().filter(|(_, published)| *published) {
         let list = output(&mut cargo(&[
@@ -34,8 +34,8 @@ pub(crate) fn package_lists() -> Result<Vec<String>> {
         }
         println!("{name}: {} files", files.len());
     }
-    // Their manifests are complete, and each finds the others in the versions that it asks for. What was built has left all that is
-    // needed of the registry's index here; where it has not, the registry is asked.
+    // Their manifests are complete, and each finds the others in the versions that it asks for. Earlier builds have left the necessary part of the
+    // registry's index here; otherwise the registry is asked.
     let mut words = vec!["package", "--workspace", "--no-verify", "--allow-dirty"];
     let all = packages()?;
     for (name, _) in all.iter().filter(|(_, published)| !*published) {

@@ -1,5 +1,5 @@
-//! When a step that runs by hand last passed, and whether what it is built from has changed since: a line per step in `ci/passed` of the
-//! target folder, which has the day and the commit.
+//! Record of the steps that run by hand: the day and the commit with which each last passed, a line per step in `ci/passed` of the target folder, and
+//! whether the files that it is built from have changed since.
 
 use std::fs;
 use std::path::PathBuf;

@@ -92,7 +92,7 @@ pub(crate) fn wheel() -> Result<Vec<String>> {
             .args(["--strict", "--no-error-summary", "python/frangible"])
             .current_dir(&from),
     )?;
-    // Out of the checkout, so that what is tried is what was installed.
+    // Outside of the checkout, so that the installed package is tried.
     let mut tests = Command::new(program("python"));
     tests.args(["-m", "pytest", "--quiet", "-p", "no:cacheprovider"]);
     tests.arg(from.join("tests")).current_dir(&folder);

@@ -30,7 +30,7 @@ pub(crate) fn semver(revision: Option<&str>) -> Result<Vec<String>> {
     Ok(vec![format!("semver: keeps to what {revision} offers")])
 }
 
-/// The last tag of a version before what is checked out.
+/// The last tag of a version before the current commit.
 fn last_version() -> Option<String> {
     let mut tags = Command::new("git");
     tags.args(["tag", "--merged", "HEAD", "--sort=-version:refname"]);

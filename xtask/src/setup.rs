@@ -8,7 +8,7 @@ use crate::command::{run, succeeds};
 
 /// Software Vulkan: draws the pictures on machines without a graphics card.
 const DRIVER: &str = "mesa-vulkan-drivers";
-/// A display without a screen, and what a window needs of X: the viewer is tested on it.
+/// A display without a screen, and the parts of X that a window needs: the viewer is tested on it.
 const DISPLAY: [&str; 7] = [
     "xvfb",
     "libx11-6",
@@ -22,7 +22,7 @@ const DISPLAY: [&str; 7] = [
 const COMPILER: &str = "g++";
 /// Counts instructions.
 const COUNTER: &str = "valgrind";
-/// Shows the page in its test, and what runs that.
+/// Browser that shows the page in its test, and the test's runner.
 const BROWSER: &str = "chromium";
 const NODE: [&str; 2] = ["nodejs", "npm"];
 /// Makes the environment in which the wheel is built and tried.
@@ -34,8 +34,8 @@ const DRIVER_FOLDERS: [&str; 3] = [
     "/usr/local/share/vulkan/icd.d",
 ];
 
-/// Installs what is missing where that is possible; otherwise says what is missing and how to get it. Never fails:
-/// most tests need no picture, and those that do say so themselves.
+/// Installs missing things where that is possible; otherwise names them and says how to get them. Never fails: most tests need no picture, and those
+/// that do say so themselves.
 pub(crate) fn setup() {
     if !succeeds("cargo", &["nextest", "--version"]) {
         println!(
@@ -84,7 +84,7 @@ pub(crate) fn valgrind() -> bool {
     there()
 }
 
-/// The browser's program and whether there is Node with npm; what is missing is installed where that is possible.
+/// Name of the browser's program, if there is Node with npm; missing things are installed where that is possible.
 pub(crate) fn browser() -> Option<&'static str> {
     const NAMES: [&str; 4] = [BROWSER, "chromium-browser", "google-chrome", "chrome"];
     let found = || {

@@ -1,4 +1,4 @@
-//! All tests of the workspace, in the profile that also builds the program.
+//! Runs all tests of the workspace, in the profile that also builds the program.
 
 use std::path::PathBuf;
 
@@ -23,7 +23,7 @@ const RUN_EXAMPLES: [&str; 7] = [
 /// Neither (other) examples nor benchmarks: clippy compiles those.
 const TESTED: [&str; 3] = ["--lib", "--bins", "--tests"];
 
-/// The workspace's own packages: name, and whether it is published.
+/// The workspace's own packages: name, and true if it is published.
 pub(crate) fn packages() -> Result<Vec<(String, bool)>> {
     let text = output(&mut cargo(&[
         "metadata",

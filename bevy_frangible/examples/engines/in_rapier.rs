@@ -21,7 +21,7 @@ fn motion(world: &BreakableWorld) -> (f64, DVec3) {
 /// Plays a scene.
 ///
 /// # Errors
-/// What the world refuses.
+/// An error of the world.
 pub fn run(scene: &Scene, seed: u64) -> Result<Outcome, WorldError> {
     let mut config = WorldConfig::plain();
     (config.gravity, config.dt) = (Vector::ZERO, 1.0 / RATE);

@@ -113,7 +113,7 @@ impl Solver {
     /// Computes the outcome of each impact, as [`frangible::impact()`] one after another does.
     ///
     /// # Errors
-    /// A contact that cannot be used; with the GPU, what [`Gpu::impacts`] refuses.
+    /// A contact that cannot be used; with the GPU, the same as [`Gpu::impacts`].
     pub fn impacts(
         &mut self,
         impacts: &[Impact<'_>],

@@ -60,7 +60,7 @@ impl Studio {
     ///
     /// # Errors
     ///
-    /// Those of [`Studio::frame`].
+    /// The same as [`Studio::frame`].
     pub fn frame_between(
         &self,
         recording: &Recording,
@@ -78,7 +78,7 @@ impl Studio {
     ///
     /// # Errors
     ///
-    /// Those of [`Studio::frame`]; [`PhotoError::Cancelled`] if `go_on` said no.
+    /// The same as [`Studio::frame`]; [`PhotoError::Cancelled`] if `go_on` returned false.
     pub fn traced(
         &self,
         recording: &Recording,
@@ -118,7 +118,7 @@ pub fn render_frame(
 ///
 /// # Errors
 ///
-/// Those of [`Studio::frame`].
+/// The same as [`Studio::frame`].
 pub fn moment_between(
     recording: &Recording,
     frame: f64,

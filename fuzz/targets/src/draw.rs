@@ -1,7 +1,7 @@
 //! Numbers and fracture configurations drawn from the fuzzer's bytes.
 //!
-//! The first byte says whether every number is plausible, or whether some are any bits at all. Where the bytes are at an end
-//! everything is drawn from zeros, which stand for the plainest choice.
+//! The first byte decides: either every number is plausible, or some are arbitrary bits. After the last byte everything is drawn from zeros, which
+//! stand for the plainest choice.
 
 use frangible::FractureConfig;
 use frangible::glam::Vec3;
@@ -70,7 +70,7 @@ impl<'a> Draw<'a> {
         u64::from_le_bytes(std::array::from_fn(|_| self.byte()))
     }
 
-    /// From 0 to 1.
+    /// A number from 0 to 1.
     fn share(&mut self) -> f64 {
         f64::from(u16::from_le_bytes([self.byte(), self.byte()])) / 65535.0
     }

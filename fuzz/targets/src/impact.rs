@@ -1,4 +1,4 @@
-//! No contact, load, configuration or weakness makes a break panic; what it does not refuse is a sound outcome.
+//! No contact, load, configuration or weakness makes a break panic; an accepted one has a sound outcome.
 
 use frangible::internals::asset::{scaled, with_material};
 use frangible::internals::contact::SharedMass;
@@ -135,7 +135,7 @@ fn contact(draw: &mut Draw<'_>, asset: &Asset, config: &FractureConfig) -> Conta
 fn check(body: &Body, outcome: &Outcome) {
     let report = outcome.report();
     let said = format!("{report:?}");
-    // Only what stands before it: a report may hold thousands of numbers.
+    // Only the text before it: a report may hold thousands of numbers.
     if let Some((before, _)) = said.split_once("NaN") {
         panic!("NaN after {}", &before[before.len().saturating_sub(300)..]);
     }
@@ -210,7 +210,7 @@ fn load(draw: &mut Draw<'_>, body: &Body, config: &FractureConfig) -> Result<Out
                 .map(|_| contact(draw, body.asset(), config))
                 .collect();
             let outcome = frangible::impact(body, &contacts, config);
-            // What shatters takes long enough once.
+            // A body that shatters takes long enough once.
             let quick = outcome.as_ref().map_or(0, |o| masses(o).len()) <= MANY;
             if quick && asks & 1 == 1 {
                 let asked = would_break(body, &contacts, config);

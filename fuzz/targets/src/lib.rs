@@ -1,4 +1,4 @@
-//! Hostile bytes for the readers of files, and for blows, worlds and scenes that run. Each target is a function that panics where what its
+//! Hostile bytes for the readers of files, and for blows, worlds and scenes that run. Each target is a function that panics if the input that its
 //! bytes describe is neither refused nor sound.
 //!
 //! The programs of the folder above give them libFuzzer's bytes; `tests/replay.rs` gives them the files of `fuzz/corpus`.

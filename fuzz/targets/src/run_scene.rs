@@ -1,4 +1,4 @@
-//! A scene whose text is accepted runs without a panic, and what breaks in it loses no mass.
+//! A scene whose text is accepted runs without a panic, and its breaks lose no mass.
 //!
 //! Its bodies stand for small baked ones, since baking would take most of the time, and it ends after 0.06 s: a projectile
 //! flies 0.05 s before it hits.

@@ -113,7 +113,7 @@ fn surface(draw: &mut Draw<'_>) -> SurfaceProperties {
     }
 }
 
-/// A world, what was put into it, and what was put aside.
+/// A world, the bodies in it, and a saved state.
 struct Play {
     world: BreakableWorld,
     bodies: Vec<RigidBodyHandle>,
@@ -286,7 +286,7 @@ impl Play {
     }
 }
 
-/// Does to a world what the bytes say.
+/// Does the deeds that the bytes describe to a world.
 pub fn world(data: &[u8]) {
     let mut draw = Draw::new(data);
     let config = config(&mut draw);

@@ -47,7 +47,7 @@ pub(super) fn check(pages: &[Page]) -> Result<BTreeSet<String>> {
 fn links(page: &Page) -> Vec<(usize, String)> {
     let mut links = Vec::new();
     for (number, line) in prose(page) {
-        // What is between backticks is code.
+        // Text between backticks is code.
         let words: String = line.split('`').step_by(2).collect::<Vec<_>>().join("code");
         for part in words.split("](").skip(1) {
             let target = part.split(')').next().unwrap_or("");

@@ -1,4 +1,4 @@
-//! The book: what its pages show is run, what they link is there, and mdBook makes it HTML where that is installed.
+//! The book: the commands of its pages are run, the targets of its links are checked, and mdBook makes it HTML where that is installed.
 //!
 //! Pages of `book/src` keep these rules; pages from elsewhere, such as those of `docs/`, are only looked through for links and options.
 //!
@@ -32,13 +32,13 @@ const WHEEL_PAGE: &str = "book/src/start/python.md";
 /// Task to do with the book.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) enum Wish<'a> {
-    /// Run what it shows, check its links, make it HTML.
+    /// Run its commands, check its links, make it HTML.
     All,
     /// Do all of it, and write anew the outputs that the pages show whole.
     Write,
     /// Check its links and make it HTML.
     Html,
-    /// Run what this page shows, by its way from the checkout's root.
+    /// Run the commands of this page, by its path from the checkout's root.
     Page(&'a str),
 }
 

@@ -9,10 +9,10 @@ use crate::command::{Result, output};
 
 /// Starts of a command line that calls the program.
 const CALLS: [&str; 2] = ["frangible ", "cargo run --release -- "];
-/// It is a command of the wheel's program alone, which `cargo xtask python` tries.
+/// A command of the wheel's program alone, which `cargo xtask python` tries.
 const OF_THE_WHEEL: &str = "dataset";
 
-/// Checks all calls of the program in code between backticks and in blocks of `sh`; returns how many options they name.
+/// Checks all calls of the program in code between backticks and in blocks of `sh`. Returns the number of options in them.
 pub(super) fn check(pages: &[Page], program: &Path) -> Result<usize> {
     let mut helps = Helps {
         program,
@@ -25,7 +25,7 @@ pub(super) fn check(pages: &[Page], program: &Path) -> Result<usize> {
             let Some(call) = CALLS.iter().find_map(|call| code.strip_prefix(call)) else {
                 continue;
             };
-            // What follows is a remark, or another program.
+            // The rest is a remark, or another program.
             let call = call.split(['#', '|', '>']).next().unwrap_or("");
             let words: Vec<&str> = call.split_whitespace().collect();
             let named = words.first().filter(|word| is_command(&main, word));

@@ -1,4 +1,4 @@
-//! A page: its lines with what they include, and its fenced blocks.
+//! A page: its lines with the included files, and its fenced blocks.
 
 use std::path::{Component, Path, PathBuf};
 
@@ -9,9 +9,9 @@ const OURS: &str = "book/src/";
 
 /// A page of the book.
 pub(super) struct Page {
-    /// From the checkout's root, for example `book/src/limits.md`.
+    /// Path from the checkout's root, for example `book/src/limits.md`.
     pub(super) path: String,
-    /// Each line with its number in the file; what is included has the number of the line that includes it.
+    /// Each line with its number in the file; an included line has the number of the line that includes it.
     pub(super) lines: Vec<(usize, String)>,
     /// Included files, each with the line that includes it.
     included: Vec<(usize, String)>,
@@ -30,7 +30,7 @@ pub(super) struct Block<'a> {
 }
 
 impl Page {
-    /// Reads a page and what it includes.
+    /// Reads a page and the files that it includes.
     pub(super) fn read(path: &str) -> Result<Self> {
         let mut page = Self {
             path: path.to_owned(),

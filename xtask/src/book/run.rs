@@ -1,4 +1,4 @@
-//! Runs the commands of a page, and compares what they print with what the page shows.
+//! Runs the commands of a page, and compares their output with the output on the page.
 
 use std::ffi::OsString;
 use std::fs::{self, File};
@@ -14,8 +14,7 @@ use crate::command::{Result, root, status_within, target};
 /// A command that needs longer is stuck; the first build of an example takes most of it.
 const LIMIT: Duration = Duration::from_secs(15 * 60);
 
-/// Runs a page's commands with this program on the path, and returns how many they were. With `write`, outputs that are shown whole are
-/// written into the page.
+/// Runs a page's commands with this program on the path. Returns their number. With `write`, outputs that are shown whole are written into the page.
 pub(super) fn page(page: &Page, program: &Path, write: bool) -> Result<usize> {
     let shells = |block: &Block<'_>| block.language == "console" && !block.is("wheel");
     let blocks = page.blocks();
@@ -49,7 +48,7 @@ pub(super) fn page(page: &Page, program: &Path, write: bool) -> Result<usize> {
     Ok(count)
 }
 
-/// Runs the Python of a page, and the commands that need the wheel, with the programs of this folder; returns how many parts they were.
+/// Runs the Python of a page, and the commands that need the wheel, with the programs of this folder. Returns the number of parts.
 pub(super) fn wheel(page: &Page, programs: &Path) -> Result<usize> {
     let place = Place::new(page, Some(programs))?;
     let mut count = 0;
@@ -107,7 +106,7 @@ impl<'a> Place<'a> {
             .map_err(|error| format!("`{}` cannot be written: {error}", path.display()))
     }
 
-    /// Runs a command of this line and returns what it printed on both streams.
+    /// Runs a command of this line. Returns its output on both streams.
     fn run(&self, words: &str, line: usize) -> Result<String> {
         println!("{}:{line}$ {words}", self.page);
         let log = self.folder.with_extension("log");
@@ -143,7 +142,7 @@ impl<'a> Place<'a> {
     }
 }
 
-/// Writes whole outputs into the page: behind which line, in place of how many, and what.
+/// Writes whole outputs into the page. Each edit: the line before it, the number of lines that it replaces, and the output.
 fn rewrite(page: &Page, edits: Vec<(usize, usize, String)>) -> Result {
     if edits.is_empty() {
         return Ok(());

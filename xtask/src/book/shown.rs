@@ -3,10 +3,10 @@
 use super::page::{Block, Page};
 use crate::command::Result;
 
-/// So many of the last lines that a command printed are told when it fails.
+/// Number of a failed command's last lines that are reported.
 const TOLD: usize = 25;
 
-/// A command, and what the page shows below it.
+/// A command, and the output below it on the page.
 pub(super) struct Shown<'a> {
     pub(super) line: usize,
     pub(super) command: &'a str,
@@ -51,7 +51,7 @@ pub(super) fn compare(page: &Page, block: &Block<'_>, shown: &Shown<'_>, printed
     ))
 }
 
-/// The first line that does not occur in what was printed, behind the lines before it.
+/// The first line that does not occur in the printed output, behind the lines before it.
 fn absent(wanted: &[(usize, &str)], printed: &str) -> Option<usize> {
     let mut lines = printed.lines();
     wanted

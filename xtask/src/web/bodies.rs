@@ -32,7 +32,7 @@ pub(super) fn bodies(folders: &Folders, packer: &Path) -> Result<Bodies> {
     let kept = folders.target.join(FOLDER).join("baked");
     make_folder(&kept)?;
     let list = kept.join("list.json");
-    // What another program baked may be another body.
+    // The bake of another program may be another body.
     let (stamp, hash) = (kept.join("baker"), hash_of(&baker)?);
     if fs::read_to_string(&stamp).is_ok_and(|known| known == hash) && list.is_file() {
         println!("the bodies are baked already");

@@ -167,7 +167,7 @@ fn of_stanzas(text: &str) -> Option<String> {
     })
 }
 
-/// From a file of lines (`deb [options] URI suite components`).
+/// Reads a file of lines (`deb [options] URI suite components`).
 fn of_lines(text: &str) -> Option<String> {
     text.lines().find_map(|line| {
         let rest = line.trim().strip_prefix("deb ")?.trim();

@@ -21,13 +21,13 @@ pub(crate) use package::package;
 pub(crate) use program::for_browsers;
 pub(crate) use trial::{bits, trial};
 
-/// All that the first visit may fetch, packed, bytes: both programs, the body of the first scene, and the page itself. Bodies of the other
-/// scenes are fetched when they are chosen.
+/// Size limit of the first visit, packed, bytes: both programs, the body of the first scene, and the page itself. Bodies of the other scenes are
+/// fetched when they are chosen.
 const MOST: u64 = 8_000_000;
 
 /// Folders in use. Nothing is written into the checkout but the folder that is asked for.
 struct Folders {
-    /// The checkout's `apps/web/page`: what is not made.
+    /// The checkout's `apps/web/page`: the part of the page that is not made.
     page: PathBuf,
     /// Builds, sources of the standard library, baked bodies.
     target: PathBuf,

@@ -10,7 +10,7 @@ use super::{Folders, folders, make_folder};
 use crate::command::{Result, announced, copy, output, root, run_keeping, shown, skipped};
 use crate::setup::browser;
 
-/// The modules, what they are for, and what each may weigh, packed, bytes.
+/// The modules, their purposes, and the size limit of each, packed, bytes.
 const MODULES: [(&str, &str, u64); 2] = [
     ("frangible-js", "breaks", 1_000_000),
     ("frangible-js-bake", "bakes", 1_000_000),
@@ -91,7 +91,7 @@ fn make(folders: &Folders) -> Result<(PathBuf, Vec<String>)> {
     Ok((out, lines))
 }
 
-/// Packs the folder as npm does, and installs that in an empty project, with what the examples need beside it.
+/// Packs the folder as npm does, and installs that in an empty project, with the packages that the examples need.
 fn install(folders: &Folders, package: &Path) -> Result<PathBuf> {
     let project = folders.target.join("npm/project");
     make_folder(&project)?;

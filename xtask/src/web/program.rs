@@ -1,4 +1,4 @@
-//! The page's two programs: built, and packed with what calls them.
+//! The page's two programs: built, and packed with the scripts that call them.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -8,15 +8,15 @@ use super::{Folders, folders};
 use crate::command::{Result, announced, cargo, output, root};
 
 pub(super) const TARGET: &str = "wasm32-unknown-unknown";
-/// The programs: what the page's list calls them, their names, and the profiles that they are built with. What computes is fast, what
-/// only draws is small.
+/// The programs: their names in the page's list, their own names, and the profiles that they are built with. The one that computes is fast, the one
+/// that only draws is small.
 const PROGRAMS: [(&str, &str, &str); 2] = [
     ("window", "frangible-web", "web"),
     ("session", SESSION, "npm"),
 ];
 /// The one that computes.
 pub(super) const SESSION: &str = "frangible-web-session";
-/// Both sides of what it generates must be of one version.
+/// Generator of the bindings; both of its sides must be of one version.
 const GENERATOR: &str = "wasm-bindgen";
 /// The packer's name for the same.
 const GENERATOR_OF_PACKER: &str = "wasm-bindgen-cli-support";
@@ -132,7 +132,7 @@ pub(super) fn packer(folders: &Folders) -> Result<PathBuf> {
     Ok(target.join("release/web-pack"))
 }
 
-/// Refuses a packer of another version than what a program of this lock file is built with.
+/// Refuses a packer of another version than the generator in the programs' lock file.
 pub(super) fn same_generator(lock: &Path) -> Result {
     let versions = [
         (lock.to_path_buf(), GENERATOR),

@@ -20,8 +20,8 @@ const PLAYED: [(&str, u32, u32); 2] = [("pane", 100, 5), ("shards", 400, 10)];
 /// Longest time for the browser before it counts as stuck, s.
 const LONGEST: &str = "1500";
 
-/// Makes the session's program and the bodies that are played, and compares what comes of them in Node with what comes of them natively: a
-/// part of the page's trial that asks for no browser.
+/// Makes the session's program and the bodies that are played, and compares the outcomes in Node with the native ones: a part of the page's trial
+/// that needs no browser.
 pub(crate) fn bits() -> Result {
     let folders = folders(None);
     let out = folders.target.join("bits");

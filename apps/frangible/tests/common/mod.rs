@@ -77,7 +77,7 @@ pub(crate) fn refused(test: &str, args: &[&str], parts: &[&str]) -> String {
     message
 }
 
-/// Checks what [`refused`] checks, and that the program says it in a single line.
+/// Checks the same as [`refused`], and that the message is a single line.
 pub(crate) fn refused_in_a_sentence(test: &str, args: &[&str], parts: &[&str]) {
     let message = refused(test, args, parts);
     assert_eq!(message.trim_end().lines().count(), 1, "{args:?}: {message}");

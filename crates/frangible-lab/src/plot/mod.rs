@@ -24,7 +24,7 @@ use image::{ImageError, ImageFormat, RgbImage};
 /// A picture as a PNG file.
 ///
 /// # Errors
-/// What the encoder said.
+/// An error of the encoder.
 pub fn png(picture: &RgbImage) -> Result<Vec<u8>, ImageError> {
     let mut bytes = Cursor::new(Vec::new());
     picture.write_to(&mut bytes, ImageFormat::Png)?;

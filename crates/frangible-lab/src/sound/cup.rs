@@ -95,7 +95,7 @@ impl Cup {
     /// Bakes, cracks and strikes it.
     ///
     /// # Errors
-    /// What the bake or the synthesiser refused.
+    /// An error of the bake or of the synthesiser.
     pub fn compute() -> Result<Self, Box<dyn Error>> {
         let shape = Shape::ready("coffee_cup").ok_or("no such shape")?;
         let material = Material::preset("porcelain")?;

@@ -39,7 +39,7 @@ impl Heard {
     /// Computes everything: minutes. `hear` receives the share done, 0..=1.
     ///
     /// # Errors
-    /// What the bake, the scenes or the synthesiser refused.
+    /// An error of the bake, of the scenes or of the synthesiser.
     pub fn compute(hear: &mut dyn FnMut(f64)) -> Result<Self, Box<dyn Error>> {
         let objects = objects::all()?;
         hear(0.2);

@@ -13,7 +13,7 @@ pub(super) struct Speaker {
 /// The loudspeaker that other programs use, and its outlet.
 ///
 /// # Errors
-/// Why there is none, in words.
+/// The reason that there is none, in words.
 #[cfg(target_os = "linux")]
 pub(super) fn open() -> Result<(Speaker, Outlet), String> {
     use pulseaudio::protocol::stream::{BufferAttr, StreamFlags};
@@ -73,7 +73,7 @@ pub(super) fn open() -> Result<(Speaker, Outlet), String> {
 /// The loudspeaker that other programs use, and its outlet.
 ///
 /// # Errors
-/// Why there is none, in words.
+/// The reason that there is none, in words.
 #[cfg(any(target_os = "windows", target_os = "macos"))]
 pub(super) fn open() -> Result<(Speaker, Outlet), String> {
     use cpal::traits::{DeviceTrait, HostTrait, StreamTrait};

@@ -103,7 +103,7 @@ impl Masses {
     /// Breaks all bodies, side by side.
     ///
     /// # Errors
-    /// What the bake or the impact refused.
+    /// An error of the bake or of the impact.
     pub fn compute(plan: MassPlan, hear: Hear<'_>) -> Result<Self, VerifyError> {
         let counter = Counter::new(2 * plan.seeds as usize, hear);
         let runs = vec![pane(&plan, &counter)?, ball(&plan, &counter)?];

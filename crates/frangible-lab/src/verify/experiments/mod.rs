@@ -48,7 +48,7 @@ impl Experiments {
     /// Computes the plans; the same plans give the same bits on any number of threads. With the full plans it takes minutes.
     ///
     /// # Errors
-    /// What the bake or the impact refused.
+    /// An error of the bake or of the impact.
     pub fn compute(
         stars: StarPlan,
         rear_stars: RearStarPlan,

@@ -108,7 +108,7 @@ impl RearStars {
     /// Computes all plates, side by side.
     ///
     /// # Errors
-    /// What the bake or the impact refused.
+    /// An error of the bake or of the impact.
     pub fn compute(plan: RearStarPlan, hear: Hear<'_>) -> Result<Self, VerifyError> {
         let (steel, glass) = (preset("steel")?, preset("glass")?);
         let ball = Projectile {

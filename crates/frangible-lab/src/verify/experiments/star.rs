@@ -188,7 +188,7 @@ impl Stars {
     /// Computes all plates, side by side.
     ///
     /// # Errors
-    /// What the bake or the impact refused.
+    /// An error of the bake or of the impact.
     pub fn compute(plan: StarPlan, hear: Hear<'_>) -> Result<Self, VerifyError> {
         let steel = preset("steel")?;
         let (pmma, glass) = (preset("pmma")?, preset("glass")?);

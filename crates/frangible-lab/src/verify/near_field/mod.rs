@@ -55,7 +55,7 @@ impl NearField {
     /// Computes everything: half a minute. `hear` receives the share done, 0..=1.
     ///
     /// # Errors
-    /// What the bake, or the fracture code, refused.
+    /// An error of the bake or of the fracture code.
     pub fn compute(hear: &mut dyn FnMut(f64)) -> Result<Self, VerifyError> {
         Self::computed(hear).map_err(|source| VerifyError::Bake {
             case: "near-field",

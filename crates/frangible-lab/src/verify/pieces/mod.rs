@@ -85,7 +85,7 @@ impl Truth {
     /// Measures fragments of these bodies. All but times is the same on any number of threads.
     ///
     /// # Errors
-    /// What the fracture code refused; a thread that could not be started.
+    /// An error of the fracture code; a thread that could not be started.
     pub fn compute(
         plan: TruthPlan,
         broken: &[Broken],
