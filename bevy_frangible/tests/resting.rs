@@ -9,8 +9,8 @@ use frangible::glam;
 use frangible::internals::{Force, rest};
 use frangible::{FractureConfig, Outcome};
 
-/// A shelf, and a cube that lies at its free end and weighs so many times what the shelf can just carry there for a second. It is taken to have
-/// lain there so many seconds.
+/// A shelf with a cube at its free end. The cube's weight is `share` times the one that the shelf can just carry there for a second, and it counts as
+/// having lain there for `seconds`.
 fn loaded(share: f32, seconds: f64) -> (App, Log, Entity) {
     let (mut app, log) = app();
     let mut config = FractureConfig::default();

@@ -273,7 +273,7 @@ pub(crate) struct ModesArgs {
     pub(crate) mesh: MeshArgs,
 }
 
-/// Scene to play: the body that breaks, and how it is hit.
+/// Scene to play: the body that breaks, and the blow that breaks it.
 #[derive(Args, Clone, Debug)]
 pub(crate) struct SceneArgs {
     /// Built-in scene; `frangible scenes` lists them [default: glass]

@@ -130,7 +130,7 @@ fn missed(run: &Run) -> Option<String> {
     let met = touches
         .chain(slides)
         .any(|(node, other)| other.is_some_and(|other| thrown(node) || thrown(other)));
-    // Who gave a blow is not told.
+    // The record does not say who gave a blow.
     if !(0..run.soundings.len()).any(thrown) || met || !run.blows.is_empty() {
         return None;
     }

@@ -267,7 +267,7 @@ fn film(path: &Path) {
     );
 }
 
-/// Pictures are kept where somebody asks for them, to be looked at.
+/// Keeps the pictures in the folder `FRANGIBLE_KEEP_SHOTS`, if it is set.
 fn keep(shots: &Path) {
     let Some(folder) = std::env::var_os("FRANGIBLE_KEEP_SHOTS") else {
         return;

@@ -50,7 +50,7 @@ impl LiveWorld {
         });
         let kinds = kinds.collect::<PyResult<Vec<Breakable>>>()?;
         let specs = bodies.iter().zip(&kinds).map(|(body, kind)| {
-            // It is baked: what it came from is not looked at.
+            // The body is baked already: its source is not used.
             let source = BodySource::Asset(PathBuf::from(&body.name));
             let material = kind.asset().material.clone();
             BodySpec {

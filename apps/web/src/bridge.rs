@@ -3,10 +3,10 @@
 //!
 //! | | |
 //! |---|---|
-//! | `scenes` | names of the scenes there are |
+//! | `scenes` | names of the scenes |
 //! | `first`, `smooth`, `canvas` | how to begin, see `PageOptions` of the viewer |
 //! | `give(line)` | gives the session a command |
-//! | `news()` | an array of bytes, each what the session told since this was asked last |
+//! | `news()` | an array of byte arrays, which the session has sent since the last call |
 //! | `drawn(frames)` | a frame is there |
 //!
 //! Its members in the session's workers are described in that program's `folder.rs`.

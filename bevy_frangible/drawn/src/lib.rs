@@ -120,7 +120,7 @@ pub fn kind(
 /// Fetches a kind of body that was baked before: `assets/MATERIAL.frangible` beside the page.
 ///
 /// # Errors
-/// None here: what cannot be fetched is told on the console.
+/// None here: a body that cannot be fetched is reported on the console.
 #[cfg(target_family = "wasm")]
 pub fn kind(
     app: &mut App,

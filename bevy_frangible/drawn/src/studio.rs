@@ -37,7 +37,7 @@ pub(crate) fn window(app: &mut App, title: &str) {
         primary_window: Some(window),
         ..default()
     });
-    // Many servers answer with a page where there is no file: what comes beside a body would be misread.
+    // Many servers answer with a page if there is no file, which would be misread as a file beside the body.
     let plugins = plugins.set(AssetPlugin {
         meta_check: AssetMetaCheck::Never,
         ..default()

@@ -8,7 +8,7 @@
 //! without it everything here returns [`DrawError::NoAdapter`]. On one machine the same recording gives the same picture. In a browser there is only
 //! the stage in a window.
 
-// What only pictures use.
+// Code for pictures is unused on a page.
 #![cfg_attr(target_family = "wasm", allow(dead_code))]
 
 #[cfg(not(target_family = "wasm"))]

@@ -18,12 +18,12 @@
 //! # Ok(()) }
 //! ```
 //!
-//! # What is decided where
-//! The GPU computes in `f32` with roundings of its own, and so it decides only what is clear: an impact whose stress
-//! stays below 0.999 of the strength at every weak point held. All others go on to the CPU, from the first time step in
-//! doubt, or from the first of all where the stress bound passes fifty times the strength. So the cracks and the pieces are those of [`frangible::impact()`], bit for bit, on any GPU; stresses and
-//! margins in the report of a body that held are the GPU's. A body with cracks from earlier impacts goes to the CPU, and so
-//! does every impact where flaws have a size ([`FractureConfig::sized_flaws`](frangible::FractureConfig::sized_flaws)).
+//! # Division of work
+//! The GPU computes in `f32` with roundings of its own, and so it decides only clear cases: an impact whose stress stays below 0.999 of the strength
+//! at every weak point held. All others go on to the CPU, from the first time step in doubt, or from the first of all where the stress bound passes
+//! fifty times the strength. So the cracks and the pieces are those of [`frangible::impact()`], bit for bit, on any GPU; stresses and margins in the
+//! report of a body that held are the GPU's. A body with cracks from earlier impacts goes to the CPU, and so does every impact where flaws have a
+//! size ([`FractureConfig::sized_flaws`](frangible::FractureConfig::sized_flaws)).
 //!
 //! # How exact it is
 //! The response is the recurrence of the CPU, stepped in `f32` from a state computed in `f64` every 64 steps: measured

@@ -8,7 +8,7 @@ use glam::{Quat, Vec3};
 
 /// Record of a scene's motion and breaks. Pictures, films and sound are made from it.
 ///
-/// | what it holds | where | of whom | when |
+/// | contents | field | of | time |
 /// |---|---|---|---|
 /// | poses | [`RecordedNode::poses`] | each body, piece and striker | in each frame, [`Recording::frame_rate`] per second |
 /// | which pieces took whose place | [`RecordedBlow::pieces`], [`RecordedNode::visible`] | each body that broke | at its break |
@@ -18,9 +18,9 @@ use glam::{Quat, Vec3};
 /// | contacts that slide or roll | [`RecordedSlide`] | each pair, or a thing and the floor, at its deepest point | 240 times per second: force, speed and power, no F(t) |
 /// | contacts of pieces | [`RecordedTouch`] | each pair, or a thing and the floor, at its deepest point | in the step in which they came together: an impulse, no F(t) |
 ///
-/// Touches that change the speed of the lighter body by less than 2 cm/s are left out, slides that lose less than 0.1 mW, velocities, and
-/// contacts that rest or roll. An impact that a bound has refused unseen has no blow: it is a touch. Where F(t) is missing, sound takes the duration of Hertz' law.
-/// Modes and materials belong to the bodies: who makes a recording hands them on beside it (`frangible_scenes::Sounding`).
+/// Left out are touches that change the speed of the lighter body by less than 2 cm/s, slides that lose less than 0.1 mW, velocities, and contacts at
+/// rest. An impact that a bound has refused unseen has no blow: it is a touch. Where F(t) is missing, sound takes the duration of Hertz' law. Modes
+/// and materials belong to the bodies: the maker of a recording hands them on beside it (`frangible_scenes::Sounding`).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Recording {
     /// Name of the file and of its scene.

@@ -84,7 +84,7 @@ impl Command {
     /// Reads a command.
     ///
     /// # Errors
-    /// A line that is none, with what was probably meant.
+    /// A line that is no command; the message says what was probably meant.
     pub fn parse(line: &str) -> Result<Self, ViewError> {
         let mut words = line.split_whitespace();
         let first = words.next().unwrap_or_default();

@@ -20,7 +20,7 @@ use thread::OnThread;
 
 pub use there::Remote;
 
-/// A session that runs beside whoever draws.
+/// A session that runs beside its window.
 pub struct Worker {
     // A program that starts only sessions of one place has the code of that place only: the window of a page has no physics.
     place: Box<dyn Place>,

@@ -1,7 +1,6 @@
 //! `bodies FOLDER [SCENE …]`: the built-in scenes, or those named, with lighter bodies, so that a page fetches them in no time, and their
 //! baked bodies, into a folder.
-//! What was baked is written down in `list.json` there: for each scene its text, the files of its bodies, each once, and the number of
-//! the file of each body.
+//! `list.json` there lists the bakes: for each scene its text, the files of its bodies, each once, and the number of the file of each body.
 
 use std::error::Error;
 use std::fs;

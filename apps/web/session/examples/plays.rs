@@ -1,6 +1,6 @@
-//! `plays FOLDER SCENE STEPS TIMES`: what the page's test sees in a browser, without one. Of the scenes and bodies that `bodies` left in the
-//! folder one runs for so many steps, so many times; after each time it is said how many bodies are whole, how many pieces there are,
-//! what those of the last break weigh, kg, and the fingerprint of all that moves, as JSON. In the end comes the time that the last break took, s.
+//! `plays FOLDER SCENE STEPS TIMES`: plays without a browser the scenes that the page's test plays in one. The scene, of those that `bodies` left in
+//! the folder, runs TIMES times for so many steps. Each time it prints as JSON the number of whole bodies, the number of pieces, the masses of those
+//! of the last break, kg, and the fingerprint of everything that moves; at the end the time that the last break took, s.
 
 use std::error::Error;
 use std::path::{Path, PathBuf};

@@ -1,10 +1,10 @@
-//! The session: commands in, bytes of what there is to see out. The worker's script calls
+//! The session: commands in, bytes of its state out. The worker's script calls
 //!
 //! | | |
 //! |---|---|
 //! | `frangible_take(line)` | a command |
 //! | `frangible_turn()` | lets the session go on for some milliseconds, or for as long as a break takes |
-//! | `frangible_news()` | bytes of what there is to see, if that is not what it was |
+//! | `frangible_news()` | bytes of the state, if it has changed |
 //! | `frangible_told()` | whether all is done, bodies that are whole, pieces, masses of those of the last break, kg, and the fingerprint of all that moves |
 
 use std::cell::RefCell;

@@ -3,13 +3,13 @@
 //!
 //! | | |
 //! |---|---|
-//! | `scenes` | names of the scenes there are |
+//! | `scenes` | names of the scenes |
 //! | `scene(name)` | a scene, TOML |
 //! | `given()` | the files that the page was given: an array of arrays of name and bytes |
 //! | `bodies(scene, tell)` | promise of the bodies of one of the page's scenes; `tell(what, share)` meanwhile |
 //! | `bake(scene, tell)` | promise of the bodies of a scene as TOML; the bake is given up when `tell` returns false |
 //! | `save(name, bytes)` | offers a file for download |
-//! | `hear(samples, rate)` | plays what is heard next: left and right in turn, −1 to 1 |
+//! | `hear(samples, rate)` | plays the next samples: left and right in turn, −1 to 1 |
 //!
 //! Bodies are an array of two: the files, each once, and the number of the file of each body.
 

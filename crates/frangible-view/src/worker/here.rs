@@ -1,4 +1,4 @@
-//! A session on the thread of whoever has it.
+//! A session on the thread of its owner.
 
 use std::collections::VecDeque;
 use std::sync::Arc;

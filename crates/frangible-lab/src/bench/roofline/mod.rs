@@ -267,7 +267,7 @@ fn displacement_time(body: &Body, vibration: &Vibration) -> f64 {
 fn stress_time(body: &Body, vibration: &Vibration, config: &FractureConfig) -> f64 {
     let (clock, mut shortest) = (Instant::now(), f64::INFINITY);
     while clock.elapsed() < BUDGET {
-        // Who has just slept is not stopped soon for others.
+        // A thread that has just slept is not stopped soon for others.
         std::thread::sleep(NAP);
         let outcome = vibration.clone().end(body, config, 0);
         shortest = shortest.min(outcome.report().timings.stress);

@@ -66,7 +66,7 @@ pub struct Happened {
     pub awake: usize,
 }
 
-/// A piece that was made, for whoever has it from the beginning.
+/// A piece that was made, for the shop that has it from the beginning.
 #[derive(Clone)]
 pub(super) struct Piece {
     pub(super) handle: RigidBodyHandle,

@@ -36,7 +36,7 @@ pub(crate) fn material(youngs_modulus: f64, poisson_ratio: f64, density: f64) ->
 /// A plate four times as wide, for the same waves: no echo comes back within a blow.
 pub(crate) const WIDE: Plate = Plate { side: 0.2, ..PLATE };
 
-/// The plate, baked: simply supported all round, 100 modes, 50 elements along a side. Baked once for all who ask.
+/// The plate, baked: simply supported all round, 100 modes, 50 elements along a side. It is baked once and shared.
 pub(crate) fn plate() -> Result<Asset, BakeError> {
     static BAKED: Mutex<Option<Asset>> = Mutex::new(None);
     once(&BAKED, || supported(&PLATE, 0.002))
