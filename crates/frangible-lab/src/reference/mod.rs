@@ -23,9 +23,9 @@
 //!
 //! Not here: the triangles of §6.3, which `frangible` replaces by an exact partition with tests of its own.
 //!
-//! Where the print cannot be what was meant, [`Options`] has an option; the defaults are what `FractureConfig::as_in_the_paper` computes. What the
-//! paper leaves open follows `frangible`: neighbours by rising number, cracks of one step by falling stress, Hooke's energy density ½ σ : ε, and
-//! roughness in metres that passes through the start.
+//! [`Options`] has an option for each passage whose print cannot be what was meant; the defaults are what `FractureConfig::as_in_the_paper` computes.
+//! What the paper leaves open follows `frangible`: neighbours by rising number, cracks of one step by falling stress, Hooke's energy density ½ σ : ε,
+//! and roughness in metres that passes through the start.
 //!
 //! [`agreement::compare`] finds the first difference between the pipeline and the reference, and how near the reference's own test was.
 
