@@ -49,7 +49,7 @@ impl Boxes {
         std::array::from_fn(|k| outside[k] * (1.0 - 1e-5) - 1e-7 * from_low[k])
     }
 
-    /// Whether each box meets another one.
+    /// Tests which of the boxes meet another box.
     pub(super) fn meet(&self, low: Vec3, high: Vec3) -> [bool; WIDE] {
         let mut meet = [true; WIDE];
         for axis in 0..3 {

@@ -79,7 +79,7 @@ impl Candidates {
         }
     }
 
-    /// How far the points of a block lie along a direction.
+    /// Projections of the points of a block on a direction.
     #[inline(always)]
     fn along(&self, block: usize, direction: Vec3) -> [f32; WIDTH] {
         let [x, y, z] = &self.coordinates;

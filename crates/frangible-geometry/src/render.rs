@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-/// What to draw of a piece of a body that has a surface that its author drew: its part of that
+/// Mesh to draw of a piece of a body that has a surface drawn by its author: its part of that
 /// surface and its crack faces, m, fragment frame.
 ///
 /// A mesh for the eye, and no input to physics. Where the author's surface is closed and faces outwards, so is each piece, once vertices at
@@ -23,7 +23,7 @@ pub struct RenderMesh {
     /// Vertices of each triangle, counter-clockwise seen from outside. The first [`RenderMesh::outer_triangles`]
     /// are the author's surface, the rest crack faces and what sews the two together.
     pub triangles: Vec<[u32; 3]>,
-    /// How many of the triangles, from the first, are the author's surface.
+    /// Number of triangles, from the first, on the author's surface.
     pub outer_triangles: usize,
     /// Index into the surface's materials of each outer triangle; empty
     /// where the author gave none. Crack faces take a material of the user's own.

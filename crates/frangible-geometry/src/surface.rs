@@ -15,7 +15,7 @@ pub struct TriMesh {
     pub triangles: Vec<[u32; 3]>,
     /// Unit normals at the corners of each triangle.
     pub normals: Vec<[Vec3; 3]>,
-    /// How many of the triangles, from the first, lie on the body's original surface.
+    /// Number of triangles, from the first, on the body's original surface.
     pub outer_triangles: usize,
     /// Cracks that entered the piece without parting it: loose two-sided triangles, m.
     pub cracks: Vec<[Vec3; 3]>,

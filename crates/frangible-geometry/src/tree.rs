@@ -38,7 +38,7 @@ pub struct SurfacePoint {
     pub triangle: u32,
     /// Weights of the triangle's corners.
     pub weights: [f32; 3],
-    /// Where it is, m.
+    /// Position, m.
     pub position: Vec3,
 }
 

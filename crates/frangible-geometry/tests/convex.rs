@@ -1,4 +1,4 @@
-//! Which bodies have a box as their collider.
+//! Bodies that have a box as their collider.
 
 use frangible_geometry::box_of;
 use frangible_geometry::glam::Vec3;

@@ -8,7 +8,7 @@ use thiserror::Error;
 pub struct OutOfRange {
     /// The quantity.
     pub what: &'static str,
-    /// What was given.
+    /// The value given.
     pub value: f64,
     /// Its unit; empty where it has none.
     pub unit: &'static str,

@@ -1,4 +1,4 @@
-//! What a brittle body is made of: [`Material`], and materials by name as [`Preset`]s with their sources.
+//! The material of a brittle body: [`Material`], and materials by name as [`Preset`]s with their sources.
 //!
 //! It is a crate of its own because a table of published numbers is no part of the computation of a break.
 

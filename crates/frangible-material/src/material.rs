@@ -1,4 +1,4 @@
-//! What a body is made of: elasticity, damping, strength, toughness.
+//! Material of a body: elasticity, damping, strength, toughness.
 
 use crate::error::{OutOfRange, not_negative, positive};
 
@@ -147,7 +147,7 @@ impl Material {
 /// Y of a long, shallow flaw at a surface.
 const FLAW_SHAPE: f64 = 1.12;
 
-/// How many times the depth that pays for a crack at the strength the energy depth is: a crack stops where the tension is 1/√8 of
+/// Energy depth over the depth whose strain energy pays for a crack at the strength: a crack stops where the tension is 1/√8 of
 /// the strength.
 const ENERGY_DEPTH_FACTOR: f64 = 8.0;
 

@@ -191,7 +191,7 @@ fn flaws_of_presets_have_room() {
     }
 }
 
-/// What stands in the source of acrylic glass: 11 MN/s split a crack, and shocked it yields at 0.75 GPa.
+/// Figures in the source of acrylic glass: 11 MN/s split a crack, and shocked it yields at 0.75 GPa.
 #[test]
 fn acrylic_glass_splits_and_flows_as_its_source_says() {
     let preset = Preset::named("pmma").unwrap();

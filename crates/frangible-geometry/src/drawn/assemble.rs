@@ -84,7 +84,7 @@ impl RenderIndex {
     }
 }
 
-/// Whether a triangle of the fan from the first corner of a convex polygon is thin: where corners lie on its sides.
+/// Returns true if the fan from the first corner of a convex polygon has a thin triangle, as where corners lie on its sides.
 fn has_thin_fan(polygon: &[DVec2]) -> bool {
     let [from, others @ ..] = polygon else {
         return false;

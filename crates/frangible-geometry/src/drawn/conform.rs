@@ -68,7 +68,7 @@ impl<'a> Corners<'a> {
         self.edges
     }
 
-    /// Where a corner is, m, body frame.
+    /// Position of a corner, m, body frame.
     pub(super) fn place(&self, number: u32) -> DVec3 {
         let vertices = self.surface.positions.len();
         let number = number as usize;
@@ -91,7 +91,7 @@ impl<'a> Corners<'a> {
         edges.flat_map(|on| self.edges.triangles_at(on[0].0))
     }
 
-    /// Whether a side of a part of triangle t, between these corners, lies on the border of a hole.
+    /// Returns true if a side of a part of triangle t, between these corners, lies on the border of a hole.
     pub(super) fn is_on_hole(&self, t: u32, ends: [u32; 2]) -> bool {
         (0..3).any(|k| {
             let Some((edge, _)) = self.edges.of_side(self.surface, 3 * t + k) else {
@@ -228,10 +228,10 @@ fn number(
     }
 }
 
-/// Where in a triangle a point lies.
+/// Place of a point in a triangle.
 enum Place {
     Vertex,
-    /// On the side from this corner to the next, so far along it.
+    /// On the side from this corner to the next, at this share of its length.
     Side(usize, f64),
     Within,
 }

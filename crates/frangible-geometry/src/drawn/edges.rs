@@ -1,4 +1,4 @@
-//! How the triangles of the author's surface hang together.
+//! Edges and neighbours of the triangles of the author's surface.
 
 use std::collections::HashMap;
 
@@ -9,13 +9,13 @@ use super::RenderSurface;
 /// Edge of a side of a triangle that has no area, and so bounds nothing.
 const NO_EDGE: u32 = u32::MAX;
 
-/// Stands for a triangle across a side where there is not just one that has the same edge the other way.
+/// Stands for the neighbour across a side, unless exactly one triangle has the same edge the other way.
 pub(super) const NO_TRIANGLE: u32 = u32::MAX;
 
 /// The edges of a surface. Side 3t + k leads from corner k of triangle t to the next; all sides between two places are one edge.
 #[derive(Debug)]
 pub(super) struct Edges {
-    /// The first vertex at the place of each.
+    /// For each vertex, the first vertex at the same place.
     pub(super) welded: Vec<u32>,
     /// The edge of each side.
     of_side: Vec<u32>,
@@ -24,7 +24,7 @@ pub(super) struct Edges {
     sides: Vec<u32>,
     /// The triangle across each side of a triangle, or [`NO_TRIANGLE`].
     across: Vec<[u32; 3]>,
-    /// Whether no edge is open.
+    /// True if no edge is open.
     pub(super) are_closed: bool,
 }
 
@@ -32,10 +32,10 @@ pub(super) struct Edges {
 struct Edge {
     /// Welded vertices, rising.
     ends: [u32; 2],
-    /// Where its sides begin in the list of all.
+    /// Index of the first of its sides in the list of all.
     first: u32,
     count: u32,
-    /// Whether as many sides run the one way as the other. Else it is the border of a hole.
+    /// True if more sides run the one way than the other: the edge is the border of a hole.
     is_open: bool,
 }
 
@@ -142,7 +142,7 @@ impl Edges {
         self.list[edge as usize].ends
     }
 
-    /// Whether an edge is the border of a hole.
+    /// Returns true if an edge is the border of a hole.
     pub(super) fn is_open(&self, edge: u32) -> bool {
         self.list[edge as usize].is_open
     }

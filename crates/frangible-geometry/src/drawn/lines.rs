@@ -1,12 +1,12 @@
-//! Which borders and rims lie beside each other, and where on a border the points of its rim are laid.
+//! Pairs of borders and rims that lie beside each other, and the positions on a border at which the points of its rim are laid.
 
 use glam::DVec3;
 
-/// Points of a border of which its distance from another is taken.
+/// Points of a line at which its distance from another is measured, at most.
 const SAMPLES: usize = 16;
 
-/// How far ahead on the border the next point of a rim is looked for, in lengths of the way to it; and in any case so much beyond where it would be if
-/// both were equally long everywhere, in shares of the border.
+/// Distance ahead on the border in which the next point of a rim is looked for, in lengths of the way to it. The search reaches at least
+/// `LEAD` beyond the point's place if both lines were equally long everywhere, in shares of the border.
 const AHEAD: f64 = 4.0;
 const LEAD: f64 = 0.1;
 
@@ -110,7 +110,7 @@ fn nearest(ring: &[Side], p: DVec3) -> (usize, f64) {
     best
 }
 
-/// Where a rim that runs along a border is laid on it, point by point: how many of its sides from the first on lie before, and the place. No
+/// Lays a rim that runs along a border on it. For each point, returns its side of the border, counted from the first, and its position. No
 /// point is laid before the one before it, so that a border which comes back to itself is followed and not crossed.
 pub(super) fn lay(border: &[DVec3], rim: &[DVec3], at_corner: f64) -> Vec<(usize, DVec3)> {
     let count = border.len();

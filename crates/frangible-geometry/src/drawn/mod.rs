@@ -36,24 +36,24 @@ pub use under::Boundary;
 use under::{Lie, Under};
 use vertices::Vertices;
 
-/// What follows from a render surface and every break needs.
+/// Data of a render surface that every break needs.
 #[derive(Debug)]
 pub struct RenderIndex {
     /// Over the triangles of the render surface.
     tree: TriangleTree,
-    /// What of the boundary of the fracture mesh lies under the triangles of the render surface.
+    /// Triangles of the fracture mesh's boundary under each triangle of the render surface.
     under: Under,
-    /// How far the surface may be from the boundary, m.
+    /// Largest distance of the surface from the boundary, m.
     reach: f32,
-    /// What the render surface is drawn with.
+    /// Vertices with which the whole render surface is drawn.
     vertices: Vertices,
     /// Normal of each render triangle.
     flat: Vec<Vec3>,
-    /// How its triangles hang together, if they face outwards.
+    /// Its edges and neighbouring triangles, if the surface faces outwards.
     edges: Option<Edges>,
 }
 
-/// How a partition of the fracture mesh divides its boundary, and the faces between its pieces.
+/// Division of the fracture mesh's boundary by a partition, and the faces between its pieces.
 #[derive(Clone, Debug, Default)]
 pub struct Division {
     /// The boundary divided among the labels.
@@ -62,7 +62,7 @@ pub struct Division {
     pub nodes: usize,
     /// Crack faces of each label, in numbers of the points.
     pub faces: Vec<Vec<[u32; 3]>>,
-    /// Where the points are, m, body frame.
+    /// Positions of the points, m, body frame.
     pub points: Vec<DVec3>,
 }
 
@@ -80,7 +80,7 @@ pub struct Piece<'a> {
 /// A triangle, a label, and the polygon that is this label's part of the triangle. Lists of them are in the order of the triangles.
 type Cut = (u32, u32, Polygon);
 
-/// What of the render surface belongs to a fragment.
+/// Share of the render surface that belongs to a fragment.
 #[derive(Clone, Debug, Default)]
 struct Share {
     /// Triangles that are the fragment's alone.
@@ -111,7 +111,7 @@ impl Share {
 }
 
 impl RenderIndex {
-    /// What follows from a surface. `reach`: how far it may be from the boundary of the fracture mesh, m.
+    /// Indexes a surface. `reach`: its largest distance from the boundary of the fracture mesh, m.
     #[must_use]
     pub fn new(surface: &RenderSurface, boundary: &Boundary<'_>, reach: f32) -> Self {
         let normals = surface.corner_normals();
@@ -126,7 +126,7 @@ impl RenderIndex {
         }
     }
 
-    /// What to draw of each piece: its share of the surface and its crack faces, sewn to that share where the surface faces outwards.
+    /// Computes the mesh to draw of each piece: its share of the surface and its crack faces, sewn to that share where the surface faces outwards.
     ///
     /// `boundary`: over the boundary triangles of the fracture mesh.
     #[must_use]
@@ -208,7 +208,7 @@ impl RenderIndex {
         pieces.iter().map(&mut draw).collect()
     }
 
-    /// Where the render surface is closest, if within reach.
+    /// Moves a point to the closest point of the render surface, if that is within reach.
     fn drawn_to(&self, point: DVec3) -> DVec3 {
         let near = self.tree.closest(point.as_vec3()).position.as_dvec3();
         if near.distance(point) <= f64::from(self.reach) {

@@ -23,7 +23,7 @@ const MANY: usize = 32;
 const NOTHING: f64 = 1e-12;
 /// Halvings of what no part covers, at most.
 const HALVINGS: u32 = 5;
-/// What no part covers is asked for its label in the middle and so far from its corners, in shares of the way to the middle.
+/// The label of an uncovered polygon is looked up in its middle, and near each corner at this share of the way to the middle.
 pub(super) const TOWARDS_MIDDLE: f64 = 0.05;
 /// The triangle itself.
 const WHOLE: [DVec2; 3] = [DVec2::ZERO, DVec2::X, DVec2::Y];
@@ -38,7 +38,7 @@ pub(super) struct Ground {
     up: DVec3,
     /// Products with these are the weights of the second and the third corner.
     weights: [DVec3; 2],
-    /// Whether it is wound the wrong way round.
+    /// True if the triangle is wound the wrong way round.
     is_turned: bool,
 }
 
@@ -66,8 +66,8 @@ impl Ground {
         [self.a.min(b).min(c) - up, self.a.max(b).max(c) + up]
     }
 
-    /// Where a triangle of the boundary falls, if some of that is on this one, if it faces the same way, and if it is not all farther away than
-    /// `reach`; and how far its middle is, m.
+    /// Projects a triangle of the boundary on this one. Returns the distance of its middle, m, and its projection. Nothing if the two do not overlap,
+    /// if it faces another way, or if it is all farther away than `reach`.
     pub(super) fn shade(&self, [p, q, r]: [DVec3; 3], reach: f64) -> Option<(f64, [DVec2; 3])> {
         let shade = [self.on(p), self.on(q), self.on(r)];
         let [low, high] = bounds(&shade);
@@ -96,7 +96,7 @@ impl Ground {
         meets.then(|| ((heights.element_sum() / 3.0).abs(), shade))
     }
 
-    /// Where a point falls.
+    /// Projects a point on the triangle.
     fn on(&self, p: DVec3) -> DVec2 {
         let (d, [u, v]) = (p - self.a, self.weights);
         DVec2::new(d.dot(u), d.dot(v))
@@ -110,12 +110,12 @@ impl Ground {
 /// A triangle of the author's surface and what lies under it.
 pub(super) struct Overlay<'a> {
     pub(super) ground: Ground,
-    /// How far under or over the triangle parts are looked for; the fracture mesh's mean edge, m.
+    /// Distance under and over the triangle in which parts are looked for: the fracture mesh's mean edge, m.
     pub(super) reach: f64,
     pub(super) parts: &'a Parts,
     /// Label of each boundary triangle, [`MIXED`] where it has several.
     pub(super) labels: &'a [u32],
-    /// The cracks within each.
+    /// The cracks within each boundary triangle.
     pub(super) cracks: &'a Cracks,
     pub(super) boundary: &'a TriangleTree,
 }
@@ -124,7 +124,7 @@ pub(super) struct Overlay<'a> {
 struct Shade {
     corners: [DVec2; 3],
     label: u32,
-    /// How far the middle of the part is, m.
+    /// Distance of the middle of the part from the triangle, m.
     height: f64,
     /// The boundary triangle that it is a part of.
     of: u32,
@@ -138,7 +138,7 @@ impl Shade {
         })
     }
 
-    /// Whether it shares more than a border with a polygon in this box.
+    /// Returns true if it shares more than a border with a polygon in this box.
     fn meets(&self, polygon: &[DVec2], [low, high]: [DVec2; 2]) -> bool {
         let [l, h] = bounds(&self.corners);
         l.cmplt(high).all() && h.cmpgt(low).all() && overlap(polygon, &self.corners)
@@ -170,7 +170,7 @@ impl Overlay<'_> {
         divided
     }
 
-    /// Where the cracks in these boundary triangles run through the triangle.
+    /// Projections of those cracks in these boundary triangles that run through the triangle.
     fn cracks_through(&self, under: &[u32]) -> impl Iterator<Item = [DVec2; 2]> {
         let cracks = under.iter().flat_map(|&t| self.cracks.of(t));
         cracks
@@ -300,7 +300,7 @@ impl Overlay<'_> {
         make_whole(polygon, before, divided);
     }
 
-    /// Whether it is worth to halve a polygon before what lies under it is found.
+    /// Returns true if a polygon is so large that halving it first saves time.
     fn is_large(&self, polygon: &[DVec2]) -> bool {
         self.size(polygon) > 0.5 * self.reach
     }
@@ -351,7 +351,7 @@ fn along_a_crack(
     parted.find(|(_, parts)| parts.iter().all(|part| area(part) > NOTHING))
 }
 
-/// What was divided for nothing, from a place of the list on, becomes the polygon again that it was.
+/// Undoes a division for nothing: polygons from a place of the list on become one again if all have the same label.
 fn make_whole(polygon: Polygon, before: usize, divided: &mut Vec<(Polygon, u32)>) {
     if let [(_, label), others @ ..] = &divided[before..]
         && others.iter().all(|o| o.1 == *label)
@@ -362,7 +362,7 @@ fn make_whole(polygon: Polygon, before: usize, divided: &mut Vec<(Polygon, u32)>
     }
 }
 
-/// Whether a stretch of the line from one point to another lies within a convex polygon.
+/// Returns true if a stretch of the line from one point to another lies within a convex polygon.
 fn runs_through(polygon: &[DVec2], from: DVec2, to: DVec2) -> bool {
     let (mut first, mut last) = (0.0_f64, 1.0_f64);
     for (i, &p) in polygon.iter().enumerate() {

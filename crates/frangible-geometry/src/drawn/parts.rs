@@ -1,4 +1,4 @@
-//! What each fragment has of the fracture mesh's boundary.
+//! Parts of the fracture mesh's boundary, each of one fragment.
 
 use glam::DVec3;
 
@@ -26,12 +26,12 @@ impl Part {
 #[derive(Debug, Default)]
 pub(super) struct Cracks {
     list: Vec<[DVec3; 2]>,
-    /// Where those of each boundary triangle end.
+    /// End of the cracks of each boundary triangle in the list.
     end: Vec<u32>,
 }
 
 impl Cracks {
-    /// Those within a boundary triangle.
+    /// The cracks within a boundary triangle.
     pub(super) fn of(&self, triangle: u32) -> &[[DVec3; 2]] {
         let t = triangle as usize;
         let first = t.checked_sub(1).map_or(0, |before| self.end[before]);

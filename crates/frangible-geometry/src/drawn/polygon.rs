@@ -5,7 +5,7 @@ use glam::DVec2;
 /// The direction of an edge shorter than this is rounding; the triangle's own edges are of length 1.
 pub(super) const SHORT: f64 = 1e-9;
 
-/// What lies no farther than this beyond the side of a polygon lies on it: the corners of two parts of a polygon are rounded.
+/// Points no farther than this beyond the side of a polygon lie on it: the corners of two parts of a polygon are rounded.
 const ROUNDING: f64 = 1e-12;
 
 /// Corners in order, counter-clockwise.
@@ -65,12 +65,12 @@ pub(super) fn bounds(polygon: &[DVec2]) -> [DVec2; 2] {
         })
 }
 
-/// Whether two counter-clockwise convex polygons share more than their borders and what rounding makes of these.
+/// Returns true if two counter-clockwise convex polygons share more than their borders and what rounding makes of these.
 pub(super) fn overlap(a: &[DVec2], b: &[DVec2]) -> bool {
     !has_separating_edge(a, b) && !has_separating_edge(b, a)
 }
 
-/// Whether all of `b` lies right of an edge of `a`, on it, or beyond it by no more than rounding; short edges do not count.
+/// Returns true if all of `b` lies right of an edge of `a`, on it, or beyond it by no more than rounding; short edges do not count.
 pub(super) fn has_separating_edge(a: &[DVec2], b: &[DVec2]) -> bool {
     (0..a.len()).any(|i| {
         let (from, to) = (a[i], a[(i + 1) % a.len()]);

@@ -1,18 +1,18 @@
-//! Lines without ends: borders of what a fragment has of a surface, and rims of its crack faces.
+//! Closed lines: borders of a fragment's share of a surface, and rims of its crack faces.
 
 use glam::DVec3;
 
-/// A line without ends.
+/// A closed line.
 #[derive(Debug)]
 pub(super) struct Ring {
     /// Its points in order, by number.
     pub(super) points: Vec<u32>,
-    /// How many of its sides are on the border of a hole.
+    /// Number of its sides on the border of a hole.
     pub(super) on_hole: usize,
 }
 
 impl Ring {
-    /// Whether it is nothing but the border of a hole.
+    /// Returns true if all its sides are on the border of a hole.
     pub(super) fn is_hole(&self) -> bool {
         self.on_hole == self.points.len()
     }

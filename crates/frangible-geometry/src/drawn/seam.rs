@@ -1,4 +1,4 @@
-//! Where a fragment's share of the author's surface ends, its crack faces go on.
+//! Seam between a fragment's share of the author's surface and its crack faces.
 //!
 //! The fracture mesh only follows the author's surface, so the two borders are two lines close to each other. The rim of the crack faces is
 //! laid on the border of the share, and crack faces take in the corners that the border has between two points of the rim. Where a rim is too
@@ -24,10 +24,10 @@ const AT_CORNER: f64 = 2e-6;
 /// surface, the face would become a fin.
 const BULGE: f64 = 0.5;
 
-/// What closes a fragment.
+/// Changes that close a fragment.
 #[derive(Debug, Default)]
 pub(super) struct Seam {
-    /// Points of the rim of the crack faces, and where they are laid, m.
+    /// Points of the rim of the crack faces, and the positions on the border at which they are laid, m.
     moved: BTreeMap<u32, DVec3>,
     /// Places on a side of a crack face, from its first point to its second, m. Of several faces with that side each takes its own.
     between: BTreeMap<[u32; 2], Vec<Vec<DVec3>>>,
@@ -35,7 +35,7 @@ pub(super) struct Seam {
 }
 
 impl Seam {
-    /// How many crack faces and triangles there are, but for those that dividing faces makes.
+    /// Number of crack faces and triangles, without those that dividing faces makes.
     pub(super) fn count(&self, cracks: CrackFaces<'_>) -> usize {
         cracks.faces.len() + self.triangles.len()
     }
@@ -82,11 +82,11 @@ impl Seam {
 #[derive(Clone, Copy, Debug)]
 struct RimPoint {
     number: u32,
-    /// Where it is, m.
+    /// Its position, m.
     place: DVec3,
     /// Side of the border that it lies beside, counted on where the border begins again.
     side: usize,
-    /// Where on that side, m.
+    /// Position on that side, m.
     beside: DVec3,
     normal: Vec3,
 }
@@ -102,10 +102,10 @@ impl RimPoint {
 pub(super) struct CrackFaces<'a> {
     pub(super) faces: &'a [[u32; 3]],
     pub(super) first: usize,
-    /// Where the points are, m, body frame.
+    /// Positions of the points, m, body frame.
     pub(super) places: &'a [DVec3],
     pub(super) normals: &'a [Vec3],
-    /// Whether the faces may end there.
+    /// For each point, true if the faces may end there.
     pub(super) is_on_rim: &'a [bool],
 }
 

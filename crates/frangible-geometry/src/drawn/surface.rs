@@ -24,7 +24,7 @@ pub struct RenderSurface {
     pub triangles: Vec<[u32; 3]>,
     /// Index into [`RenderSurface::materials`]: none, or one per triangle.
     pub material_of_triangle: Vec<u32>,
-    /// What the triangles look like.
+    /// Materials of the triangles.
     pub materials: Vec<RenderMaterial>,
 }
 

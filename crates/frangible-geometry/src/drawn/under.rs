@@ -1,4 +1,4 @@
-//! What of the fracture mesh's boundary lies under each triangle of the author's surface: it does not change when the body breaks.
+//! Boundary triangles of the fracture mesh under each triangle of the author's surface. They stay the same when the body breaks.
 
 use glam::{DVec3, Vec3};
 
@@ -27,13 +27,13 @@ impl Boundary<'_> {
 #[derive(Debug, Default)]
 pub(super) struct Under {
     list: Vec<u32>,
-    /// Where the list of each triangle ends.
+    /// End of the list of each triangle.
     end: Vec<u32>,
-    /// How each triangle lies.
+    /// Position of each triangle relative to the boundary.
     lies: Vec<Lie>,
 }
 
-/// How a triangle of a surface lies on the boundary.
+/// Position of a triangle of a surface relative to the boundary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Lie {
     /// Over triangles of the boundary, or under them, and facing as they do.

@@ -64,7 +64,7 @@ impl Vertices {
         Self { list, of }
     }
 
-    /// How many there are.
+    /// Number of vertices.
     pub(super) fn count(&self) -> usize {
         self.list.len()
     }

@@ -51,15 +51,15 @@ const MASS_DAMPING: f64 = 5.0;
 /// A name longer than this is cut in the message, characters.
 const LONGEST_NAME: usize = 48;
 
-/// A named material and where its numbers come from.
+/// A named material and the source of its numbers.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Preset {
     /// Name, lower case.
     pub name: &'static str,
-    /// What it stands for.
+    /// Short description of the material.
     pub summary: &'static str,
-    /// Where the numbers come from, and which of them are estimates.
+    /// Source of the numbers, and which of them are estimates.
     pub source: &'static str,
     /// Fracture toughness K_Ic, Pa·√m; 0 where the source gives only the fracture energy.
     pub fracture_toughness: f64,
@@ -76,7 +76,7 @@ pub struct Preset {
     numbers: Numbers,
 }
 
-/// What [`Preset::material`] is built from.
+/// Numbers from which [`Preset::material`] is built.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Numbers {
     youngs_modulus: f64,
@@ -167,7 +167,7 @@ impl Preset {
 #[error("unknown material `{name}`; materials: {}", names().join(", "))]
 #[non_exhaustive]
 pub struct UnknownMaterial {
-    /// What was asked for, cut if very long.
+    /// The name that was asked for, cut if very long.
     pub name: String,
 }
 
