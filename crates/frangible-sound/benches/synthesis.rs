@@ -49,7 +49,7 @@ fn config() -> SynthConfig {
     SynthConfig::new(Listener::at(DVec3::new(0.0, 0.4, 1.5), DVec3::ZERO))
 }
 
-/// What a resonator costs by itself: one that everybody would write first.
+/// Cost of resonators by themselves, against the plain filters that everybody would write first.
 fn plain(c: &mut Criterion) {
     let mut group = c.benchmark_group("one sample of one resonator");
     let count = 200;

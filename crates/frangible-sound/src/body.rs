@@ -1,4 +1,4 @@
-//! What sounds: modes, a mass, and the sphere that carries them to the air.
+//! A body that can sound: modes, a mass, and the sphere that carries them to the air.
 
 use glam::Vec3;
 
@@ -12,9 +12,9 @@ use crate::waves::HARMONICS;
 pub struct Body {
     /// Name, for messages.
     pub name: String,
-    /// Mass that moves as a whole, kg; infinite for what is held, which then sounds by its modes alone.
+    /// Mass that moves as a whole, kg; infinite for a body that is held, which then sounds by its modes alone.
     pub mass: f64,
-    /// How its motion becomes sound.
+    /// Sphere that radiates its motion as sound.
     pub sphere: EquivalentSphere,
     /// Its modes of vibration; may be empty, and then only its motion as a whole is heard.
     pub modes: Vec<Mode>,
@@ -77,7 +77,7 @@ impl Body {
         Ok(body)
     }
 
-    /// How fast one newton-second at a point, m, along a unit direction makes that point move along it, as if the body were rigid, m/s: 1/m and
+    /// Velocity along a unit direction that one newton-second along it gives a point, m, as if the body were rigid, m/s: 1/m and
     /// the turning, with the inertia of a body whose second moments are those of its surface.
     #[must_use]
     pub fn yields(&self, point: Vec3, direction: Vec3) -> f64 {

@@ -1,14 +1,14 @@
-//! How sound is made, and what was done.
+//! Settings of the synthesis, and its report.
 
 use crate::error::{SoundError, within};
 use crate::listener::{Listener, SoundFloor};
 
-/// How sound is made.
+/// Settings of the synthesis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SynthConfig {
     /// Samples per second, 8000 to 192 000, default 48 000.
     pub rate: f64,
-    /// Who listens.
+    /// The listener.
     pub listener: Listener,
     /// The floor, if there is one.
     pub floor: Option<SoundFloor>,
@@ -58,7 +58,7 @@ impl SynthConfig {
     }
 }
 
-/// What a synthesiser did so far.
+/// Statistics of a synthesiser so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SynthReport {
     /// Loudest pressure, Pa.

@@ -1,4 +1,4 @@
-//! How fast a tone dies away: what the ear needs, apart from the damping of the fracture.
+//! Decay of audible tones, apart from the damping of the fracture.
 //!
 //! A break is over in a millisecond and does not care how long 10 kHz ring; the ear does. The numbers of the fracture let glass ring ten times
 //! too long there, so sound has damping of its own, in three parts that add up: the material's, here; what the body [radiates](crate::Body),
@@ -138,7 +138,7 @@ impl AudibleDamping {
     }
 }
 
-/// What holds a body while it rings, and takes from it.
+/// Support of a body while it rings, which takes energy from it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Hold {
     /// Nothing: it flies, or touches only for moments.

@@ -1,4 +1,4 @@
-//! What can be wrong with what is to sound.
+//! Errors in the input of the synthesis.
 
 use thiserror::Error;
 
@@ -9,7 +9,7 @@ pub enum SoundError {
     /// A number is NaN or infinite.
     #[error("{what} is {value}, not a finite number; check the simulation step that produced it")]
     NotFinite {
-        /// Which number, in words.
+        /// Name of the number, in words.
         what: String,
         /// Its value.
         value: f64,
@@ -17,7 +17,7 @@ pub enum SoundError {
     /// A number is finite but outside its range.
     #[error("{what} is {value}, but must be {range}")]
     OutOfRange {
-        /// Which number, in words.
+        /// Name of the number, in words.
         what: String,
         /// Its value.
         value: f64,
@@ -27,11 +27,11 @@ pub enum SoundError {
     /// Two lists that belong together differ in length.
     #[error("{what} has {count} entries, but {expected} expected")]
     BadCount {
-        /// Which list, in words.
+        /// Name of the list, in words.
         what: String,
-        /// How many entries it has.
+        /// Number of its entries.
         count: usize,
-        /// How many it should have, in words.
+        /// Number of entries expected, in words.
         expected: String,
     },
     /// A number of a body that was never added, or was removed.
@@ -41,7 +41,7 @@ pub enum SoundError {
     NoBody {
         /// The number.
         index: usize,
-        /// How many bodies there are.
+        /// Number of bodies added so far.
         count: usize,
     },
     /// The samples could not be written as a WAV file.

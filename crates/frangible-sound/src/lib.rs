@@ -46,7 +46,7 @@
 //! # }
 //! ```
 //!
-//! What is not there: sound that bends around other bodies; rooms.
+//! Not modelled: sound that bends around other bodies; rooms.
 //! Everything is in SI units, and y is up.
 
 mod air;

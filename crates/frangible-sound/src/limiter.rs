@@ -2,14 +2,14 @@
 
 use crate::error::{SoundError, checked_full_scale};
 
-/// What a limiter did so far.
+/// Statistics of a limiter so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LimiterReport {
     /// Loudest pressure that came, Pa.
     pub peak: f64,
     /// Samples that were made softer.
     pub limited: u64,
-    /// How much softer the loudest of them was made, dB; 0 if none.
+    /// Reduction of the loudest of them, dB; 0 if none.
     pub reduction: f64,
 }
 
@@ -46,7 +46,7 @@ impl Limiter {
         })
     }
 
-    /// What it did so far.
+    /// Returns its statistics so far.
     #[must_use]
     pub fn report(&self) -> LimiterReport {
         self.report

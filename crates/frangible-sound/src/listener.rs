@@ -55,7 +55,7 @@ impl Listener {
         within(|| "the number of channels".into(), channels, fits, "1 or 2").map(|_| ())
     }
 
-    /// Where each channel's ear is, m.
+    /// Position of each channel's ear, m.
     fn ears(&self) -> impl Iterator<Item = DVec3> {
         let side = if self.channels == 2 { HALF_HEAD } else { 0.0 };
         let signs: &[f64] = if self.channels == 2 {
@@ -147,11 +147,11 @@ impl SoundFloor {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Way {
     pub(crate) channel: usize,
-    /// Samples after which it arrives.
+    /// Delay until it arrives, in samples.
     pub(crate) delay: usize,
-    /// How loud, against the sound at the middle of the head.
+    /// Loudness relative to the sound at the middle of the head.
     pub(crate) gain: f32,
-    /// Whether it leaves towards the floor.
+    /// True if the sound leaves towards the floor.
     pub(crate) by_floor: bool,
 }
 

@@ -63,7 +63,7 @@ impl AssetSound {
         Ok((own, sound))
     }
 
-    /// What a force of one newton along a direction gives each mode, 1/√kg, where it acts on the surface nearest to a point, m, body
+    /// Force on each mode, 1/√kg, of one newton along a direction that acts on the surface nearest to a point, m, body
     /// frame.
     #[must_use]
     pub fn push(&self, point: Vec3, direction: Vec3) -> Vec<f32> {

@@ -1,4 +1,4 @@
-//! What is heard, on its way to a loudspeaker: a queue that two threads share.
+//! Samples on their way to a loudspeaker: a queue that two threads share.
 
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -6,11 +6,11 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 /// Channels: left and right.
 const CHANNELS: usize = 2;
 
-/// So much waits before the queue is played again after it ran empty, beyond what the loudspeaker takes at once, s: a step may come as much later
+/// Stock at which an empty queue is played again, beyond what the loudspeaker takes at once, s: a step may come as much later
 /// than the one before without a gap.
 const AHEAD: f64 = 0.04;
 
-/// More than this is not put into the queue, s: whoever runs ahead of the clock is not heard to the end.
+/// Stock beyond which no samples are added, s: a simulation that runs ahead of the clock is not heard to the end.
 const MOST: f64 = 0.5;
 
 /// Share of the last sample that the next one keeps where the queue ran empty, so that the end is no click.
@@ -28,7 +28,7 @@ struct Waiting {
     samples: VecDeque<f32>,
     /// The last sample of each channel that was played.
     last: [f32; CHANNELS],
-    /// Whether the queue is played, and not silent until enough waits.
+    /// True while the queue is played; false while it is silent until enough samples wait.
     flows: bool,
 }
 

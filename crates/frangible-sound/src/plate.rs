@@ -16,7 +16,7 @@ use crate::of_asset::HIGHEST;
 use crate::sphere::{EquivalentSphere, SurfaceElement};
 use crate::waves::HARMONICS;
 
-/// What a plate is made of.
+/// Material of a plate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlateMaterial {
     /// Young's modulus, Pa.
@@ -25,7 +25,7 @@ pub struct PlateMaterial {
     pub poisson_ratio: f64,
     /// Density, kg/m³.
     pub density: f64,
-    /// How its tones die away.
+    /// Damping of its tones.
     pub damping: AudibleDamping,
 }
 
@@ -34,9 +34,9 @@ pub struct PlateMaterial {
 pub struct Plate {
     /// Length, width and thickness, m.
     pub sides: [f64; 3],
-    /// From the plate's axes, along its length, width and thickness, to the body's frame.
+    /// Rotation from the plate's axes, along its length, width and thickness, to the body's frame.
     pub axes: DQuat,
-    /// Which numbers of nodal lines along length and width the heard modes have, as places in the row of a bar's modes.
+    /// For each mode heard, the numbers of its bar modes along length and width.
     tones: Vec<[usize; 2]>,
     /// Mass, kg.
     mass: f64,
@@ -245,7 +245,7 @@ impl Plate {
         Ok((plate, body))
     }
 
-    /// What a force of one newton along a direction gives each mode, 1/√kg, at a point, m, body frame.
+    /// Force on each mode, 1/√kg, of one newton along a direction at a point, m, body frame.
     #[must_use]
     pub fn push(&self, point: Vec3, direction: Vec3) -> Vec<f32> {
         let across = (self.axes * DVec3::Z).dot(direction.as_dvec3());

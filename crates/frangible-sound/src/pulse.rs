@@ -34,7 +34,7 @@ impl Pulse {
         Self { time_step, force }
     }
 
-    /// How long it lasts, s.
+    /// Duration, s.
     #[must_use]
     pub fn duration(&self) -> f64 {
         self.time_step * self.force.len() as f64
@@ -82,7 +82,7 @@ impl Pulse {
         }
     }
 
-    /// How fast the force grows from the k-th value to the next, N/s.
+    /// Growth of the force from the k-th value to the next, N/s.
     fn slope(&self, k: usize) -> f64 {
         if k >= self.force.len() {
             return 0.0;
@@ -116,8 +116,8 @@ impl Pulse {
     }
 }
 
-/// What a half-sine of a duration, s, gives an oscillator of an angular frequency, rad/s, as a share of what a blow of no duration
-/// gives: |cos(ωτ/2) / (1 − (ωτ/π)²)|.
+/// Response of an oscillator of an angular frequency, rad/s, to a half-sine of a duration, s, as a share of that to a blow of no duration:
+/// |cos(ωτ/2) / (1 − (ωτ/π)²)|.
 pub(crate) fn half_sine_share(frequency: f64, duration: f64) -> f64 {
     let x = frequency * duration / std::f64::consts::PI;
     let near = 1.0 - x * x;
@@ -127,7 +127,7 @@ pub(crate) fn half_sine_share(frequency: f64, duration: f64) -> f64 {
     ((0.5 * std::f64::consts::PI * x).cos() / near).abs()
 }
 
-/// What a pulse adds to z, ż = λ z + F, sample after sample: the integral of F e^{λ(t−τ)} over the time since the sample before, without
+/// Sum that a pulse adds to z, ż = λ z + F, sample after sample: the integral of F e^{λ(t−τ)} over the time since the sample before, without
 /// any approximation. A corner of the force, where its slope jumps by S and itself by J, leaves a free oscillation S/λ² + J/λ from there; with
 /// the forced motion −F/λ − F'/λ² that is all of z.
 pub(crate) struct Drive<'a> {
@@ -172,7 +172,7 @@ impl<'a> Drive<'a> {
         drive
     }
 
-    /// How many corners have come at a time.
+    /// Number of corners up to a time, s.
     fn corners_until(&self, time: f64) -> usize {
         ((time / self.pulse.time_step) as usize + 1).min(self.pulse.force.len() + 1)
     }
@@ -182,7 +182,7 @@ impl<'a> Drive<'a> {
         self.inverse.scaled(-force) + self.inverse_square.scaled(-slope)
     }
 
-    /// What the next sample gets.
+    /// Returns the sum for the next sample.
     pub(crate) fn step(&mut self) -> Complex {
         let (pulse, until) = (self.pulse, self.corners_until(self.time));
         let mut sum = Complex::default();

@@ -1,4 +1,4 @@
-//! Which resonators are worth their time: the loudest within a budget, and none that others mask.
+//! Choice of the resonators that are worth their time: the loudest within a budget, and none that others mask.
 
 use crate::voice::Voice;
 
@@ -15,7 +15,7 @@ fn band(frequency: f64) -> usize {
     (bark.max(0.0) as usize).min(BANDS - 1)
 }
 
-/// What a selection took out.
+/// Numbers of resonators that a selection took out.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Taken {
     pub(crate) masked: u64,

@@ -22,7 +22,7 @@ use crate::waves::{HARMONICS, degree, efficiencies, hankel, hankel_slopes, harmo
 /// A small part of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceElement {
-    /// Where it is, m, from the body's centre of mass.
+    /// Position, m, from the body's centre of mass.
     pub place: DVec3,
     /// Its outward normal times its area, m².
     pub area: DVec3,
@@ -33,13 +33,13 @@ pub struct SurfaceElement {
 pub struct EquivalentSphere {
     /// Its radius, m: that of a sphere with the area of the surface that looks away from the centre.
     pub radius: f64,
-    /// From the frame of the harmonics, which is along the principal axes of the surface, to the body's.
+    /// Rotation from the frame of the harmonics, which is along the principal axes of the surface, to the body's.
     pub axes: DQuat,
     /// Volume of the body and of the air that goes with it along each axis, m³.
     pub moved_air: [f64; 3],
     /// Semi-axes of the ellipsoid of the surface's second moments, m.
     semi_axes: [f64; 3],
-    /// What degree 1 is multiplied by along each axis.
+    /// Factor of degree 1 along each axis.
     shaken: [f64; 3],
 }
 
@@ -112,7 +112,7 @@ impl EquivalentSphere {
         self.semi_axes
     }
 
-    /// What degree 1 has to be multiplied by, so that the shaken body moves the ellipsoid's air.
+    /// Factors of degree 1 with which the shaken body moves the ellipsoid's air.
     fn found_shaken(&self, surface: &[SurfaceElement]) -> [f64; 3] {
         let mut shaken = [0.0; 3];
         for element in surface.iter().filter(|e| looks_out(e)) {
@@ -131,13 +131,13 @@ impl EquivalentSphere {
         })
     }
 
-    /// Where a place of the body's surface goes on the sphere: a direction in the frame of the harmonics, not of unit length.
+    /// Place on the sphere of a place of the body's surface: a direction in the frame of the harmonics, not of unit length.
     fn direction(&self, place: DVec3) -> DVec3 {
         let place = self.axes.inverse() * place;
         place / DVec3::from_array(self.semi_axes)
     }
 
-    /// What the displacement of an element, m, adds to the normal displacement of the sphere, m: one vector for each harmonic, to be
+    /// Weights by which the displacement of an element, m, adds to the normal displacement of the sphere, m: one vector for each harmonic, to be
     /// multiplied with the displacement.
     #[must_use]
     pub fn weights(&self, element: &SurfaceElement) -> [DVec3; HARMONICS] {
@@ -182,7 +182,7 @@ impl EquivalentSphere {
     }
 }
 
-/// Where x, y and z stand among the harmonics.
+/// Places of x, y and z among the harmonics.
 const DIPOLE: [usize; 3] = [3, 1, 2];
 
 fn looks_out(element: &SurfaceElement) -> bool {

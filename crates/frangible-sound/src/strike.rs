@@ -1,4 +1,4 @@
-//! What makes a body sound: forces on it, and cracks through it.
+//! Causes of a body's sound: forces on it, and cracks through it.
 
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
@@ -16,7 +16,7 @@ use crate::pulse::{Pulse, half_sine_share};
 pub struct Strike {
     /// The force over time.
     pub pulse: Arc<Pulse>,
-    /// What one newton of it gives each mode, 1/√kg: φ_i(x)·n, as [`AssetSound::push`](crate::AssetSound::push) finds it. Empty: nothing; else
+    /// Force on each mode of one newton of it, 1/√kg: φ_i(x)·n, as [`AssetSound::push`](crate::AssetSound::push) finds it. Empty: nothing; else
     /// one per mode.
     pub push: Vec<f32>,
     /// The direction of the force in the body's frame, by which the body is moved as a whole; zero for forces in balance.

@@ -31,7 +31,7 @@ pub struct Synth {
     pub(crate) config: SynthConfig,
     pub(crate) arch: pulp::Arch,
     pub(crate) voices: Vec<Option<Voice>>,
-    /// What is to come, by time, s, and by the order of the calls.
+    /// Events to come, by time, s, and by the order of the calls.
     pub(crate) events: VecDeque<(f64, Event)>,
     pub(crate) sorted: bool,
     pub(crate) thumps: Vec<Thump>,
@@ -71,7 +71,7 @@ impl Synth {
         })
     }
 
-    /// How it was set.
+    /// Returns its settings.
     #[must_use]
     pub fn config(&self) -> &SynthConfig {
         &self.config
@@ -84,7 +84,7 @@ impl Synth {
         (self.now - waiting as u64) as f64 / self.config.rate
     }
 
-    /// What it did so far.
+    /// Returns its statistics so far.
     #[must_use]
     pub fn report(&self) -> SynthReport {
         self.report
@@ -214,7 +214,7 @@ impl Synth {
         Ok(())
     }
 
-    /// Whether nothing is heard any more and nothing is to come.
+    /// Returns true if nothing is heard any more and nothing is to come.
     #[must_use]
     pub fn is_silent(&self) -> bool {
         let delays = self.coming.first().map_or(0, Vec::len) / BLOCK;

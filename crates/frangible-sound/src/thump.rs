@@ -42,7 +42,7 @@ impl Thump {
         })
     }
 
-    /// Whether it goes on after a time in samples.
+    /// Returns true if it goes on after a time in samples.
     pub(crate) fn lasts(&self, rate: f64, end: f64) -> bool {
         self.start + self.pulse.duration() * rate + 1.0 >= end
     }

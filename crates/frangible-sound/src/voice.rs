@@ -27,9 +27,9 @@ const NYQUIST: f64 = 0.45;
 pub(crate) struct Slot {
     /// The mode of the body.
     pub(crate) mode: u32,
-    /// How loud it will be by what is striking it, Pa.
+    /// Loudness expected from the strikes on the body, Pa.
     pub(crate) expected: f32,
-    /// Whether it is to fade out in this block, and then go.
+    /// If true, it fades out in this block and is then removed.
     pub(crate) goes: bool,
 }
 
@@ -50,11 +50,11 @@ pub(crate) struct Voice {
     ways: Ways,
     /// The ways before the last change of place, while they fade.
     before: Option<Ways>,
-    /// When it ends, in samples: a body that broke.
+    /// Time at which it ends, in samples: the body broke.
     ends: Option<f64>,
 }
 
-/// What all voices share.
+/// Surroundings that all voices share.
 pub(crate) struct Room<'a> {
     pub(crate) listener: &'a crate::listener::Listener,
     pub(crate) floor: Option<&'a crate::listener::SoundFloor>,
@@ -86,7 +86,7 @@ impl Voice {
         }
     }
 
-    /// Whether nothing of it is to be heard.
+    /// Returns true if no resonator rings and nothing strikes it.
     pub(crate) fn is_silent(&self) -> bool {
         self.slots.is_empty() && self.hits.is_empty()
     }
@@ -118,7 +118,7 @@ impl Voice {
         }
     }
 
-    /// Takes in that who listens has moved.
+    /// Takes in that the listener has moved.
     pub(crate) fn heard_from(&mut self, room: &Room<'_>) {
         self.put(self.place, self.rotation, room);
     }
@@ -216,7 +216,7 @@ impl Voice {
         });
     }
 
-    /// How loud a resonator is, Pa.
+    /// Loudness of a resonator, Pa.
     pub(crate) fn level(&self, i: usize) -> f32 {
         let (lanes, k) = (&self.lanes[i / LANES], i % LANES);
         let square = |re: f32, im: f32| f64::from(re).powi(2) + f64::from(im).powi(2);

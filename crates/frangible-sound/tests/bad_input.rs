@@ -1,4 +1,4 @@
-//! What cannot sound is refused by name; what is too much is bounded.
+//! Input that cannot sound is refused by name; input that is too much is bounded.
 
 use std::sync::Arc;
 

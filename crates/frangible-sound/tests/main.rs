@@ -1,4 +1,4 @@
-//! What breaks, heard.
+//! Sound of breaking bodies.
 
 mod bad_input;
 mod baked;

@@ -1,4 +1,4 @@
-//! How surfaces become sound, against closed forms.
+//! Sound of moving surfaces, against closed forms.
 
 use std::f64::consts::{PI, TAU};
 

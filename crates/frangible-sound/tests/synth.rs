@@ -1,4 +1,4 @@
-//! What comes out of the synthesiser.
+//! Output of the synthesiser.
 
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;

@@ -15,10 +15,10 @@ use crate::pulse::Pulse;
 use crate::strike::{CRACK_SHARE, CRACK_SPEED, Strike};
 use crate::synth::Synth;
 
-/// How near to the floor a force comes from the floor, m.
+/// Distance from the floor below which a force comes from the floor, m.
 const ON_FLOOR: f32 = 0.01;
 
-/// How near to a projectile's centre a force comes from it, in radii of it. A hammer's head is longer than wide.
+/// Distance from a projectile's centre below which a force comes from it, in radii of it. A hammer's head is longer than wide.
 const AT_PROJECTILE: f32 = 3.0;
 
 /// Cracks of one blow that sound by themselves, the longest; the energy of all is shared among these.

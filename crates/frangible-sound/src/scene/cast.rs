@@ -4,7 +4,7 @@ use frangible::{Body, Material};
 use frangible_recording::Pose;
 use glam::Vec3;
 
-/// What a thing is to the ear.
+/// Kind of sound source that a thing is.
 #[derive(Clone, Debug)]
 #[expect(
     clippy::large_enum_variant,
@@ -15,12 +15,12 @@ pub enum Sounding {
     Modes(Body),
     /// A piece without modes of its own, by its material and mass, kg.
     Piece(Material, f64),
-    /// What was thrown, as a ball of a radius, m, and a mass, kg, of this material.
+    /// A projectile, as a ball of a radius, m, and a mass, kg, of this material.
     Ball(Material, f64, f64),
 }
 
 impl Sounding {
-    /// What it is made of.
+    /// Returns its material.
     #[must_use]
     pub fn material(&self) -> &Material {
         match self {
@@ -41,9 +41,9 @@ impl Sounding {
 
 /// The things of a scene: a run that is over, or a world on the move.
 pub trait Cast {
-    /// What a thing is called.
+    /// Name of a thing.
     fn name(&self, node: usize) -> &str;
-    /// What it is to the ear.
+    /// The thing as a sound source.
     fn sounding(&self, node: usize) -> &Sounding;
     /// The corners of its surface in its own frame, m.
     fn vertices(&self, node: usize) -> &[Vec3];
@@ -51,7 +51,7 @@ pub trait Cast {
     fn triangles(&self, node: usize) -> Vec<[u32; 3]>;
     /// The [balls](Sounding::Ball) that are there at a time, s.
     fn balls(&self, time: f64) -> Vec<usize>;
-    /// Where a thing is at a time, s.
+    /// Pose of a thing at a time, s.
     fn pose(&self, node: usize, time: f64) -> Pose;
     /// Height of the floor, m, if there is one.
     fn floor(&self) -> Option<f32>;

@@ -1,4 +1,4 @@
-//! What a scene sounds like: its things, and what happens to them, on their way into a synthesiser.
+//! The sound of a scene: its things, and the blows and touches that happen to them, on their way into a synthesiser.
 //!
 //! Whoever runs a scene, or a game its world, numbers the things in it ([`Cast`]) and says what happened as plain data: blows with the forces
 //! that the fracture found ([`recorded_blow`]), what came together and what slides ([`Touching`] finds it in an engine's contacts). A
@@ -33,7 +33,7 @@ const REMEMBERED: f64 = 0.02;
 pub struct Hearing {
     synth: Synth,
     nodes: Nodes,
-    /// What the floor is made of.
+    /// Material of the floor.
     floor: Option<Material>,
     /// Things that were struck, and when, s.
     blows: Vec<(usize, f64)>,

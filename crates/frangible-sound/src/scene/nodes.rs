@@ -17,7 +17,7 @@ use crate::plate::{Plate, PlateMaterial};
 use crate::sphere::SurfaceElement;
 use crate::synth::Synth;
 
-/// How a push on a node reaches its modes.
+/// The shape of a node, from which a push on its modes is computed.
 enum Shape {
     Asset(Arc<AssetSound>),
     Plate(Plate),
@@ -130,7 +130,7 @@ impl Nodes {
         }
     }
 
-    /// What a newton along a direction gives each mode of a node that is ready, at a point of it, m.
+    /// Force on each mode of a node that is ready, of one newton along a direction at a point of it, m.
     pub(super) fn push(&self, node: usize, point: Vec3, direction: Vec3) -> Vec<f32> {
         match self.ready.get(&node).map(|ready| &ready.shape) {
             Some(Shape::Asset(asset)) => asset.push(point, direction),

@@ -23,15 +23,15 @@ const SAME: f64 = 1.5 / 240.0;
 /// its fifth root, so that a factor of ten changes it by 1.6.
 const EDGE: f64 = 0.2;
 
-/// What lasts longer makes no sound, s.
+/// Longest push that makes a sound, s.
 const LONGEST: f64 = 0.02;
 
-/// One side of a touch: a node that is ready to sound, and how the push comes to it.
+/// One side of a touch: a node that is ready to sound, and the push on it.
 struct Side {
     id: usize,
     body: Arc<Body>,
     push: Vec<f32>,
-    /// Where the push acts, m, and its direction, in the node's frame.
+    /// Position at which the push acts, m, and its direction, in the node's frame.
     point: Vec3,
     direction: Vec3,
 }

@@ -1,4 +1,4 @@
-//! What touches, what slides and what rolls, found step by step in what an engine says of its contacts.
+//! Touches, slides and rolling, found step by step in the contacts that an engine reports.
 
 use std::collections::BTreeMap;
 
@@ -8,25 +8,25 @@ use glam::Vec3;
 /// A touch that changes the lighter body's speed by less than this is none, m/s.
 const AUDIBLE: f32 = 0.02;
 
-/// What lies is pushed by its weight in every step, and when contacts come and go by a multiple of it: so many are no touch.
+/// Multiple of a body's weight up to which a push is no touch: weight pushes in every step, and more when contacts come and go.
 const LYING: f32 = 3.0;
 
 /// Time between two looks at what slides and rolls, s.
 const SLIDES: f64 = 1.0 / 240.0;
 
-/// What has not touched for so long touches anew, s: what rolls pushes in every second step or so.
+/// Time without contact after which a pair touches anew, s: a rolling body pushes in every second step or so.
 const LIFTED: f64 = 4.0 * SLIDES;
 
-/// A contact that rolls travels as fast as the body turns about it; faster than so many times this it has hopped from one place to another.
+/// A rolling contact travels as fast as the body turns about it; one faster than this multiple has hopped from one place to another.
 const HOPPED: f32 = 2.0;
 
-/// Slower contacts rest or roll, m/s: the solver leaves about this much to what lies.
+/// Slower contacts rest or roll, m/s: the solver leaves about this speed to lying bodies.
 const SLIDING: f32 = 0.02;
 
 /// Friction that takes less is not heard, W: of 0.1 mW a ten-millionth is sound at best, which are 10 dB a metre away.
 const LEAST_POWER: f64 = 1e-4;
 
-/// How a body moves: velocity, m/s, angular velocity, rad/s, and centre of mass, m.
+/// Motion of a body: velocity, m/s, angular velocity, rad/s, and centre of mass, m.
 pub type Motion = [Vec3; 3];
 
 /// Two things that push each other in a step: one that is followed, and another one or what does not move. Engines name bodies and
@@ -41,11 +41,11 @@ pub struct Push {
     pub bodies: [Option<u64>; 2],
     /// Mass of the lighter one that moves, kg.
     pub lightest: f32,
-    /// Where, m.
+    /// Position of the contact, m.
     pub point: Vec3,
     /// Unit direction of the push on the first thing.
     pub normal: Vec3,
-    /// Where it is in the frames of the two colliders, m, in the order of the things.
+    /// Position of the contact in the frames of the two colliders, m, in the order of the things.
     pub places: [Vec3; 2],
     /// Impulse along the normal in the step, N·s.
     pub impulse: f32,
@@ -56,35 +56,35 @@ pub struct Push {
 /// A step that an engine took.
 #[derive(Clone, Copy, Debug)]
 pub struct EngineStep {
-    /// When it ended, s.
+    /// Time of its end, s.
     pub time: f64,
-    /// How long it was, s.
+    /// Its length, s.
     pub length: f32,
     /// Acceleration of gravity, m/s².
     pub gravity: f32,
-    /// How far ahead of a contact's normal the pressure of a rolling body acts, m; zero where nothing resists rolling.
+    /// Distance ahead of a contact's normal at which the pressure of a rolling body acts, m; zero where nothing resists rolling.
     pub rolling_arm: f32,
 }
 
-/// Notices what comes together, by what pushed in the step before.
+/// Finds touches by comparing the pushes of a step with those of the step before.
 #[derive(Clone, Debug, Default)]
 pub struct Touching {
     /// Impulse of each pair of colliders in the latest step, N·s.
     pushed: BTreeMap<[u64; 2], f32>,
-    /// How each body moved after the latest step.
+    /// Motion of each body after the latest step.
     moving: BTreeMap<u64, Motion>,
     /// Steps so far.
     steps: u64,
-    /// When what slides was looked at, s.
+    /// Time of the last look at slides and rolling, s.
     looked: f64,
-    /// Where each pair touched last, m, in the frames of its two colliders, and when, s.
+    /// Last contact of each pair: its position in the frames of the two colliders, m, and its time, s.
     places: BTreeMap<[u64; 2], Touched>,
 }
 
 type Touched = ([Vec3; 2], f64);
 
 impl Touching {
-    /// What came together in a step, and what slides or rolls: by all that pushed in it, and how the bodies move after it.
+    /// Finds the touches, slides and rolling of a step, from all pushes in it and the motion of the bodies after it.
     ///
     /// A touch is where a pair of colliders pushes more than twice as hard as in the step before, and changes the speed of the lighter body by
     /// more than 2 cm/s beyond what its weight does. When within its step it came is not known. All touches of a step at its end would be heard as
@@ -141,7 +141,7 @@ impl Touching {
     }
 }
 
-/// What slides, if it does: by Coulomb's law, from the normal force and the speed along the surfaces.
+/// The slide at a push, if there is one: by Coulomb's law, from the normal force and the speed along the surfaces.
 fn slide(
     push: &Push,
     moving: &BTreeMap<u64, Motion>,
@@ -163,8 +163,8 @@ fn slide(
     })
 }
 
-/// What rolls, if it does: its contact travels over both surfaces, from where it was so many seconds `before`. What the resistance to rolling
-/// takes is its torque, the normal force at an arm, times how fast the two turn about each other. `arm`: that arm over the step's time, m/s.
+/// The rolling at a push, if there is any: the contact travels over both surfaces, from its places `before`. The power lost to the resistance to
+/// rolling is its torque, the normal force at an arm, times how fast the two turn about each other. `arm`: that arm over the step's time, m/s.
 fn roll(
     push: &Push,
     moving: &BTreeMap<u64, Motion>,

@@ -15,7 +15,7 @@ pub(super) struct Hit {
     /// When it began, in samples.
     pub(super) start: f64,
     pub(super) strike: Strike,
-    /// What of the force is heard at once: Σ Im G_i φ_i / ω_i, Pa/N. It is the acceleration under the force, and a resonator, which holds a
+    /// Part of the force that is heard at once: Σ Im G_i φ_i / ω_i, Pa/N. It is the acceleration under the force, and a resonator, which holds a
     /// velocity, lacks it. Known once the resonators are chosen.
     pub(super) direct: Option<f64>,
     /// The motion as a whole: pressure per newton, Pa/N, times 1/s, straight to the listener and towards the floor; and its state.

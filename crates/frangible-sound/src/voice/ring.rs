@@ -12,7 +12,7 @@ use crate::air::SPEED_OF_SOUND;
 const HUSH: f64 = 32.0;
 
 impl Voice {
-    /// What is left of a sample at a time, in samples, of a body that ends.
+    /// Share of a sample that is left at a time, in samples, of a body that ends.
     fn left(&self, time: f64) -> f32 {
         let past = self.ends.map_or(0.0, |ends| (time - ends) / HUSH);
         (0.5 + 0.5 * (std::f64::consts::PI * past.clamp(0.0, 1.0)).cos()) as f32
