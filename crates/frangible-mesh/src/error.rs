@@ -11,7 +11,7 @@ pub enum TetError {
     NotPositive {
         /// The quantity, with its unit.
         what: &'static str,
-        /// What was given.
+        /// The value given.
         value: f64,
     },
     /// More lattice points than fit in memory.
@@ -69,7 +69,7 @@ pub enum TetError {
     Sliver {
         /// Smallest dihedral angle, degrees.
         angle: f64,
-        /// What is promised, degrees.
+        /// Smallest angle that is promised, degrees.
         limit: f64,
     },
     /// Whoever watched the work asked it to stop.

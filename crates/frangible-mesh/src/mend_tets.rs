@@ -66,7 +66,7 @@ pub enum TetInputError {
     /// Parts that touch along edges only.
     #[error("parts of the body touch along {edges} mere edges; join or part them there")]
     Pinched {
-        /// How many such edges there are.
+        /// Number of such edges.
         edges: usize,
     },
     /// Middle nodes that are no middles.
@@ -93,7 +93,7 @@ pub enum TetInputError {
     },
 }
 
-/// What was mended.
+/// Counts of what was mended.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct TetMend {
@@ -150,11 +150,11 @@ pub struct NodeGroup {
 pub struct MendedTets {
     /// One face-connected piece, right-handed; the tetrahedra in the order of the file.
     pub body: TetBody,
-    /// Whether the file's elements were of second order.
+    /// True if the file's elements were of second order.
     pub quadratic: bool,
     /// Named parts that are left, as nodes of the body.
     pub groups: Vec<NodeGroup>,
-    /// What was done.
+    /// Repairs that were made.
     pub mend: TetMend,
 }
 

@@ -1,4 +1,4 @@
-//! How good tetrahedra are.
+//! Quality of tetrahedra.
 
 use glam::DVec3;
 

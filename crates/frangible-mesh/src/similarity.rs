@@ -33,7 +33,7 @@ impl Similarity {
         Self { scale, shift }
     }
 
-    /// Where `p` goes.
+    /// Transforms a point.
     #[must_use]
     pub fn apply(&self, p: DVec3) -> DVec3 {
         self.scale * p + self.shift

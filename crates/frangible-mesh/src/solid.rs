@@ -1,11 +1,11 @@
-//! What the mesher asks of a body: where is inside, how far is the surface.
+//! Queries of the mesher to a body: inside or outside, and distance to the surface.
 
 use glam::DVec3;
 
 /// The surface's point closest to some point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfacePoint {
-    /// Where, m.
+    /// Position, m.
     pub position: DVec3,
     /// Unit normal there, outwards.
     pub normal: DVec3,
@@ -19,12 +19,12 @@ pub trait Solid: Send + Sync {
     /// Distance to the surface, m, negative inside. Its magnitude may be smaller than the true distance, never larger.
     fn signed_distance(&self, p: DVec3) -> f64;
 
-    /// Whether the body holds `p`.
+    /// Returns true if `p` lies inside the body.
     fn inside(&self, p: DVec3) -> bool {
         self.signed_distance(p) < 0.0
     }
 
-    /// Where the segment from a point inside to one outside leaves the body, to 1e-9 of its length.
+    /// Point at which the segment from a point inside to one outside leaves the body, to 1e-9 of its length.
     fn crossing(&self, inside: DVec3, outside: DVec3) -> DVec3 {
         let at = |t: f64| inside.lerp(outside, t);
         at(sign_change(|t| self.signed_distance(at(t)), 1e-9))
@@ -52,7 +52,7 @@ pub trait Solid: Send + Sync {
         (position.distance(p) <= within).then_some(position)
     }
 
-    /// How far a ray from a point inside runs until it leaves the body, m; `None` if it starts outside. `direction` is
+    /// Distance that a ray from a point inside runs until it leaves the body, m; `None` if it starts outside. `direction` is
     /// a unit vector. Found by sphere tracing: steps as long as the distance allows.
     fn exit(&self, from: DVec3, direction: DVec3) -> Option<f64> {
         let [low, high] = self.bounds();

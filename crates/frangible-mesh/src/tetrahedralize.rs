@@ -36,7 +36,7 @@ const VOLUME_OFF: f64 = 0.03;
 /// Tetrahedra per lattice cube of a wall of [`CELLS_PER_WALL`] cells; in a thick body they are 12.6.
 const TETS_PER_WALL_CUBE: f64 = 14.3;
 
-/// How many tetrahedra, or how large.
+/// Number of tetrahedra, or their size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Resolution {
     /// About this many tetrahedra, within 15 %; more when thin walls or a volume off by more than 3 % ask for them.

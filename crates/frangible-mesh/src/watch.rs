@@ -4,11 +4,11 @@ use std::ops::ControlFlow;
 
 use crate::error::TetError;
 
-/// Whoever is told, and what was told last.
+/// The observer of the work, and the share that it was told last.
 pub(crate) struct Watch<'a> {
     tell: &'a mut dyn FnMut(f64) -> ControlFlow<()>,
     told: f64,
-    /// Where the present attempt started: one that is repeated shares what is left.
+    /// Share at which the present attempt started: one that is repeated shares what is left.
     start: f64,
 }
 

@@ -1,4 +1,4 @@
-//! What repair promises, on small meshes whose right answer is known.
+//! Promises of the repair, on small meshes whose right answer is known.
 
 use std::path::PathBuf;
 

@@ -1,4 +1,4 @@
-//! What the mesher promises, on solids with known volumes.
+//! Promises of the mesher, on solids with known volumes.
 
 use std::ops::ControlFlow;
 

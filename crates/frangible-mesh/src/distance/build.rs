@@ -99,7 +99,7 @@ impl DistanceSolid {
         }
     }
 
-    /// What a closed polygon of (radius, height) points sweeps around z.
+    /// Solid of revolution: a closed polygon of (radius, height) points turned around z.
     pub fn revolved(profile: Vec<DVec2>) -> Self {
         let radius = profile.iter().fold(0.0, |most: f64, q| most.max(q.x));
         let low = profile
@@ -180,12 +180,12 @@ impl DistanceSolid {
         Some(Self::union_of(parts)?.union(Self::union_of(rest)?))
     }
 
-    /// What both hold.
+    /// Intersection of both.
     pub fn intersection(self, other: Self) -> Self {
         self.smooth_intersection(other, 0.0)
     }
 
-    /// What both hold, the edges between them rounded over about `blend`.
+    /// Intersection of both, the edges between them rounded over about `blend`.
     pub fn smooth_intersection(self, other: Self, blend: f64) -> Self {
         Self {
             bounds: self.bounds.intersection(&other.bounds),

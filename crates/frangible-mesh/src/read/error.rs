@@ -11,7 +11,7 @@ pub enum ReadError {
     /// Nothing has this name.
     #[error("there is no file {}{}", path.display(), did_you_mean(nearest.as_deref()))]
     Missing {
-        /// What was asked for.
+        /// The path asked for.
         path: PathBuf,
         /// The most similar name in the same folder.
         nearest: Option<String>,
@@ -22,7 +22,7 @@ pub enum ReadError {
     /// The operating system refuses.
     #[error("cannot read {}: {source}", path.display())]
     Unreadable {
-        /// What was asked for.
+        /// The path asked for.
         path: PathBuf,
         /// Its reason.
         source: io::Error,
@@ -39,7 +39,7 @@ pub enum ReadError {
     /// The content ends too soon.
     #[error("the file is cut off: it ends inside {inside}")]
     Truncated {
-        /// What was being read.
+        /// Part of the file that was being read.
         inside: String,
     },
     /// The content breaks the rules of its format.
@@ -47,7 +47,7 @@ pub enum ReadError {
     Malformed {
         /// Line, face or part of the file.
         place: String,
-        /// What is wrong there.
+        /// Fault found there.
         problem: String,
     },
     /// A film of a break, which this project wrote.
@@ -66,17 +66,17 @@ pub enum ReadError {
         "face {face} refers to vertex {index}, but there are only {vertices} (index as in the file)"
     )]
     IndexOutOfRange {
-        /// Which face, from 1.
+        /// Number of the face, from 1.
         face: usize,
         /// The index as the file writes it.
         index: i64,
-        /// How many vertices the file has.
+        /// Number of vertices in the file.
         vertices: usize,
     },
     /// A coordinate is NaN or infinite.
     #[error("vertex {vertex} has a coordinate that is not a finite number")]
     NotFinite {
-        /// Which vertex, from 1.
+        /// Number of the vertex, from 1.
         vertex: usize,
     },
     /// Nothing to make a solid of.
@@ -89,9 +89,9 @@ pub enum ReadError {
     TooLarge {
         /// Triangles, vertices or bytes.
         what: &'static str,
-        /// How many.
+        /// Number found.
         found: u64,
-        /// How many are allowed.
+        /// Largest number allowed.
         limit: u64,
     },
     /// Neither a surface nor tetrahedra of a known format.

@@ -1,4 +1,4 @@
-//! What holds for the mesh of every format.
+//! Last checks and completions, the same for the mesh of every format.
 
 use glam::{Vec2, Vec3};
 

@@ -1,4 +1,4 @@
-//! Which format a file is in.
+//! Mesh formats, and how a file's format is told.
 
 use std::path::Path;
 
@@ -54,7 +54,7 @@ impl MeshFormat {
     }
 }
 
-/// Whether the triangle count at byte 80 explains the length to the byte.
+/// Returns true if the triangle count at byte 80 explains the length to the byte.
 pub(crate) fn is_exactly_binary_stl(bytes: &[u8]) -> bool {
     bytes
         .get(80..84)

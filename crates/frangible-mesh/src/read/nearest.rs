@@ -10,7 +10,7 @@ const LONGEST_NAME: usize = 48;
 /// A file's name longer than this gets no suggestion, nor is one suggested, characters.
 const LONGEST_FILE_NAME: usize = 64;
 
-/// How many names of a folder are looked at.
+/// Largest number of names of a folder that are looked at.
 const MOST_NEIGHBOURS: usize = 10_000;
 
 /// The closest of the known names, if it takes fewer edits than half of the letters; the first of equals.

@@ -40,7 +40,7 @@ fn is_text(bytes: &[u8]) -> bool {
     solid && !start.contains(&0)
 }
 
-/// Whether the start is made of letters: a binary file has zero bytes in its header or its count.
+/// Returns true if the start is made of letters: a binary file has zero bytes in its header or its count.
 fn looks_written(bytes: &[u8]) -> bool {
     let start = bytes.get(..1024).unwrap_or(bytes);
     start

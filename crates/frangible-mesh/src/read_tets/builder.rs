@@ -1,4 +1,4 @@
-//! What the readers of tetrahedra hand over, element by element, in the numbers of their files.
+//! Builder to which the readers of tetrahedra hand over nodes and elements one by one, in the numbers of their files.
 
 use std::collections::BTreeMap;
 

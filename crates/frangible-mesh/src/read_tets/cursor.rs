@@ -3,7 +3,7 @@
 use crate::read::ReadError;
 use crate::read::text::shown;
 
-/// How numbers are written.
+/// Encoding of numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Coding {
     Text,
@@ -41,7 +41,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Where an error is: a line of text, a byte of a binary file.
+    /// Place of an error: a line of text, a byte of a binary file.
     pub(super) fn place(&self) -> String {
         match self.coding {
             Coding::Text => format!("line {}", self.line),
@@ -86,7 +86,7 @@ impl<'a> Cursor<'a> {
         self.at += rest.iter().position(|&b| b == b'\n').unwrap_or(rest.len());
     }
 
-    /// What is left of the line; the next thing read begins after its end.
+    /// Takes the rest of the line; the next thing read begins after its end.
     pub(super) fn rest_of_line(&mut self) -> Option<&'a [u8]> {
         if self.at >= self.bytes.len() {
             return None;

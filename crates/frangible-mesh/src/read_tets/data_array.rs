@@ -8,7 +8,7 @@ use super::cursor::{Coding, Cursor, integer_of, real_of};
 use super::xml::Tag;
 use crate::read::ReadError;
 
-/// What holds for all arrays of a file.
+/// Encoding of all arrays of a file.
 pub(super) struct Settings {
     coding: Coding,
     /// Bytes of a number of a header.
@@ -161,7 +161,7 @@ impl<'a> Layout<'a> {
 /// Bytes in turn.
 enum Source<'a> {
     Raw(&'a [u8]),
-    /// What is left, and what is decoded but not yet taken.
+    /// Text that is left, and bytes that are decoded but not yet taken.
     Base64(&'a [u8], Vec<u8>),
 }
 

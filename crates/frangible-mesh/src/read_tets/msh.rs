@@ -58,7 +58,7 @@ fn start(cursor: &mut Cursor<'_>, coding: Coding) {
     cursor.coding = coding;
 }
 
-/// Whether it is version 4; sets the coding.
+/// Reads the format and sets the coding. Returns true if it is version 4.
 fn format(cursor: &mut Cursor<'_>) -> Result<bool, ReadError> {
     let inside = "$MeshFormat";
     let version = cursor.real(8, inside)?;
@@ -101,7 +101,7 @@ fn names(cursor: &mut Cursor<'_>, builder: &mut Builder) -> Result<(), ReadError
     Ok(())
 }
 
-/// What is made of an element of one of Gmsh's types.
+/// Use of an element of one of Gmsh's types.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Use {
     Tet,
@@ -109,7 +109,7 @@ pub(super) enum Use {
     Skip,
 }
 
-/// Nodes of an element and what it is for.
+/// Number of nodes of an element, and its use.
 ///
 /// # Errors
 /// Solid elements that are no tetrahedra of first or second order, and types that are not known.

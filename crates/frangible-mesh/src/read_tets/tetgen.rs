@@ -94,7 +94,7 @@ fn nodes(bytes: &[u8], builder: &mut Builder) -> Result<(), ReadError> {
     Ok(())
 }
 
-/// Whether they have ten nodes.
+/// Reads the elements. Returns true if they have ten nodes.
 fn elements(bytes: &[u8], builder: &mut Builder) -> Result<bool, ReadError> {
     let mut cursor = Cursor::with_comments(bytes);
     let mut values = Vec::new();

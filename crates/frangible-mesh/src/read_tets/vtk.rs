@@ -47,7 +47,7 @@ struct Grid {
     cells: Cells,
     builder: Builder,
     points: u64,
-    /// Which of the cell data gave the groups: higher ranks are preferred.
+    /// Rank of the cell data that gave the groups: higher ranks are preferred.
     rank: usize,
 }
 

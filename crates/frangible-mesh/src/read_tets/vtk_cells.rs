@@ -23,7 +23,7 @@ const GROUP_NAMES: [&str; 16] = [
     "tetgen:ref",
 ];
 
-/// How much a name of cell data says of groups; more is better.
+/// Rank of a name of cell data as a source of groups; higher is better.
 pub(super) fn rank(name: &str) -> Option<usize> {
     let name = name.to_ascii_lowercase();
     let at = GROUP_NAMES.iter().position(|&known| known == name)?;

@@ -40,7 +40,7 @@ impl<'a> Tags<'a> {
         }
     }
 
-    /// What follows the last tag.
+    /// Bytes after the last tag.
     pub(super) fn rest(&self) -> &'a [u8] {
         &self.bytes[self.at..]
     }

@@ -1,4 +1,4 @@
-//! Which shells stand above a point: winding numbers by vertical rays.
+//! Shells above a point: winding numbers by vertical rays.
 
 use glam::DVec3;
 

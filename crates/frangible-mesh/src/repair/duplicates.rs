@@ -7,7 +7,7 @@ use super::edges::{Edges, Side};
 
 /// Keeps one triangle of each set on the same vertices; returns how many went.
 ///
-/// Where as many face either way, they are back to back without thickness. Sheets of such pairs that end at open
+/// If as many face either way, they are back to back without thickness. Sheets of such pairs that end at open
 /// edges of the rest close it, and those that hang on nothing are a double-sided model: one copy stays. Membranes
 /// between closed parts and fins bound nothing: both copies go.
 pub(super) fn drop_duplicates(triangles: &mut Vec<[u32; 3]>, vertices: usize) -> usize {
@@ -54,7 +54,7 @@ fn sorted(mut triangle: [u32; 3]) -> [u32; 3] {
     triangle
 }
 
-/// Whether the vertices rise along the winding, up to where it starts.
+/// Returns true if the vertices rise along the winding, up to where it starts.
 fn is_even([a, b, c]: [u32; 3]) -> bool {
     [a < b, b < c, c < a]
         .into_iter()
@@ -68,7 +68,7 @@ fn retain<T>(list: &mut Vec<T>, keep: &[bool]) {
     list.retain(|_| flags.next().copied().unwrap_or(true));
 }
 
-/// Which triangles stay: all but the sheets of pairs whose rims mostly lie on edges that are closed without them.
+/// For each triangle, true if it stays: all do but the sheets of pairs whose rims mostly lie on edges that are closed without them.
 fn needed(triangles: &[[u32; 3]], is_paired: &[bool], vertices: usize) -> Vec<bool> {
     let edges = Edges::new(vertices, triangles);
     let mut sheets = DisjointSets::new(triangles.len());

@@ -44,17 +44,17 @@ pub enum RepairError {
     /// NaN, infinite, or absurdly far away.
     #[error("vertex {vertex} has a coordinate that is not a finite number below 1e60")]
     NotFinite {
-        /// Which vertex, from 1.
+        /// Number of the vertex, from 1.
         vertex: usize,
     },
     /// A triangle refers to a vertex that does not exist.
     #[error("triangle {triangle} refers to vertex {index} (from 0), but there are only {vertices}")]
     IndexOutOfRange {
-        /// Which triangle, from 1.
+        /// Number of the triangle, from 1.
         triangle: usize,
         /// The index, from 0.
         index: u32,
-        /// How many vertices there are.
+        /// Number of vertices.
         vertices: usize,
     },
 }
@@ -202,7 +202,7 @@ fn close_cracks(positions: &mut Vec<DVec3>, triangles: &mut Vec<[u32; 3]>, diago
     }
 }
 
-/// Whether all vertices are near the plane through the first, the farthest from it, and the farthest from their line.
+/// Returns true if all vertices are near the plane through the first, the farthest from it, and the farthest from their line.
 fn is_flat(positions: &[DVec3], diagonal: f64) -> bool {
     let Some(&origin) = positions.first() else {
         return true;

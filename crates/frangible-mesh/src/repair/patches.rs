@@ -8,11 +8,11 @@ const NONE: u32 = u32::MAX;
 pub(super) struct Patches {
     /// Part of each triangle.
     pub(super) of: Vec<u32>,
-    /// Whether each triangle has to be turned for its part to be wound one way.
+    /// For each triangle, true if it has to be turned for its part to be wound one way.
     pub(super) is_flipped: Vec<bool>,
-    /// For each part, whether it has no consistent winding.
+    /// For each part, true if it has no consistent winding.
     pub(super) is_one_sided: Vec<bool>,
-    /// For each part, whether it is bounded by nothing.
+    /// For each part, true if it is bounded by nothing.
     pub(super) is_closed: Vec<bool>,
 }
 

@@ -1,4 +1,4 @@
-//! What a repair found and did.
+//! Report of a repair.
 
 use std::fmt;
 
@@ -40,7 +40,7 @@ pub struct RepairReport {
 }
 
 impl RepairReport {
-    /// Whether every edge has two triangles and every shell two sides.
+    /// Returns true if every edge has two triangles and every shell two sides.
     #[must_use]
     pub fn is_watertight(&self) -> bool {
         self.open_shells == 0 && self.non_manifold_edges == 0

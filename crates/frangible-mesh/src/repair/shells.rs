@@ -1,4 +1,4 @@
-//! Which way is out.
+//! Orientation of shells and cavities.
 
 use glam::DVec3;
 
@@ -13,7 +13,7 @@ const CLEARLY_INSIDE_OUT: f64 = 1e-3;
 /// Points per shell that must all be inside another one for it to be nested.
 const SAMPLES: usize = 8;
 
-/// How many shells turned out to be what.
+/// Numbers of nested shells, by kind.
 #[derive(Default)]
 pub(super) struct Nesting {
     pub(super) cavities: usize,

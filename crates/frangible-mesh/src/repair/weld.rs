@@ -1,15 +1,15 @@
-//! Which vertices are the same.
+//! Welding of vertices that are the same.
 
 use std::collections::HashMap;
 
 use glam::DVec3;
 use rayon::slice::ParallelSliceMut as _;
 
-/// How far apart the two banks of a crack may be, as a share of the bounding box's diagonal. Files with six digits
+/// Largest distance between the two banks of a crack, as a share of the bounding box's diagonal. Files with six digits
 /// put them up to 1e-6 apart.
 const CRACK: f64 = 1e-5;
 
-/// How far apart they may be as a share of the rim's shortest edge there, so that finely divided rims do not shrink.
+/// Largest distance between them as a share of the rim's shortest edge there, so that finely divided rims do not shrink.
 const CRACK_PER_EDGE: f64 = 0.25;
 
 /// Vertices of one cell that others may move onto; more means a rim far finer than any crack that is closed.

@@ -38,10 +38,10 @@ const INSIDE: [(f64, f64); 8] = [
     (0.0, 90.6),
 ];
 
-/// What is added on all sides of the section, mm, and rounds its corners: half the thickness of the wall.
+/// Margin added on all sides of the section, mm, which rounds its corners: half the thickness of the wall.
 const ROUND: f64 = 1.0;
 
-/// Between corners of the section the curve takes so many steps.
+/// Steps of the curve between two corners of the section.
 const STEPS: usize = 6;
 
 /// A wine glass 187 mm tall, with a bowl 80 mm across, a foot of 69 mm and a stem of 7.6 mm; its wall is 2.0 mm

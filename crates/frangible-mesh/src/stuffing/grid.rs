@@ -1,4 +1,4 @@
-//! Which points of a regular grid lie inside a solid, asking the solid only near its surface.
+//! Points of a regular grid inside a solid, found by asking the solid only near its surface.
 
 use glam::DVec3;
 use rayon::prelude::*;

@@ -17,7 +17,7 @@ const MOST_POINTS: f64 = 4e8;
 pub(crate) struct Lattice {
     /// Vertex positions, m.
     pub(crate) positions: Vec<DVec3>,
-    /// Whether a vertex is a cube's centre; edges between two of a kind are the long ones.
+    /// For each vertex, true if it is a cube's centre; edges between two of a kind are the long ones.
     pub(crate) is_centre: Vec<bool>,
     pub(crate) inside: Vec<bool>,
     /// Right-handed.

@@ -12,7 +12,7 @@ use crate::stuffing::warp::{Side, Warped};
 pub(crate) struct Cut {
     pub(crate) positions: Vec<DVec3>,
     pub(crate) tets: Vec<[u32; 4]>,
-    /// Whether a vertex was put on the surface.
+    /// For each vertex, true if it was put on the surface.
     pub(crate) on_surface: Vec<bool>,
 }
 

@@ -1,4 +1,4 @@
-//! Where the surface cuts lattice edges, and which lattice vertices move onto it.
+//! Cuts of the surface through lattice edges, and warping of lattice vertices onto it.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -26,7 +26,7 @@ pub(crate) struct Warped {
     pub(crate) sides: Vec<Side>,
     /// Cut edges (lower vertex, higher vertex), rising.
     pub(crate) edges: Vec<(u32, u32)>,
-    /// Where each is cut.
+    /// Position of the cut on each, m.
     pub(crate) cuts: Vec<DVec3>,
 }
 

@@ -25,17 +25,17 @@ const NEAR: f64 = 0.5;
 /// Directions in which the planes agree this little, relative to the most decided one, are left alone.
 const DECIDED: f64 = 0.08;
 
-/// What became of the sharp features.
+/// Numbers of edges that cut off sharp features, before and after snapping.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Features {
     /// Boundary edges that cut off a sharp edge or corner before anything moved.
     pub sharp: usize,
-    /// Those that still do.
+    /// Boundary edges that still do after snapping.
     pub not_snapped: usize,
 }
 
 /// Moves vertices onto sharp features where no dihedral angle falls below `angle`, degrees, and marks them in `snapped`:
-/// they stay there from now on. Gives what became of the features.
+/// they stay there from now on.
 pub(crate) fn snap(
     draft: &mut Draft,
     snapped: &mut [bool],
@@ -115,7 +115,7 @@ struct Candidate {
     distance: f64,
     /// 2 on an edge, 3 at a corner.
     rank: usize,
-    /// Which of the vertex's candidates this is.
+    /// Index among the vertex's candidates.
     choice: usize,
 }
 
@@ -129,7 +129,7 @@ struct Shape {
     /// Tangent plane next to each boundary vertex.
     at_vertex: Vec<DVec3>,
     on_boundary: Vec<bool>,
-    /// Where the vertices were when the planes were found.
+    /// Positions of the vertices when the planes were found, m.
     seen: Vec<DVec3>,
     cell: f64,
 }
@@ -237,7 +237,7 @@ impl Shape {
             .collect()
     }
 
-    /// Where vertex `v` would lie on the features next to it: the corner of all planes it sees, and the edges of each two;
+    /// Positions of vertex `v` on the features next to it: the corner of all planes it sees, and the edges of each two;
     /// without the choices that were `refused`.
     fn candidates(&self, draft: &Draft, solid: &dyn Solid, v: u32, refused: u32) -> Vec<Candidate> {
         let here = draft.body.positions[v as usize];

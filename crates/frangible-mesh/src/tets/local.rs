@@ -6,7 +6,7 @@ use glam::DVec3;
 use crate::quality::dihedral_cosines;
 use crate::tets::TetBody;
 
-/// How bad tetrahedra are: the cosine of the smallest dihedral angle, or of 180° minus the largest, whichever is worse.
+/// Badness of a tetrahedron: the cosine of the smallest dihedral angle, or of 180° minus the largest, whichever is worse.
 /// Lies in −1..=1; smaller is better.
 pub(crate) fn badness(x: [DVec3; 4]) -> f64 {
     let (smallest, largest) = dihedral_cosines(x);

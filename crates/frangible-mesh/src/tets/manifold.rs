@@ -1,6 +1,6 @@
 //! Makes the surface a closed manifold: every edge between two triangles, every vertex in one fan.
 //!
-//! Where two parts of the body touch along a mere edge, the smaller fan of tetrahedra at that edge goes; where they
+//! If two parts of the body touch along a mere edge, the smaller fan of tetrahedra at that edge goes. If they
 //! touch at a mere vertex, each part gets its own.
 
 use frangible_geometry::{FACES, NO_NEIGHBOUR, Rows};
@@ -13,7 +13,7 @@ use crate::tets::{Draft, TetBody};
 /// Rounds after which the rest is given up; two have always been enough.
 const ROUNDS: usize = 40;
 
-/// Gives the number of tetrahedra removed.
+/// Makes the surface of a body manifold. Returns the number of tetrahedra removed.
 ///
 /// # Errors
 /// [`TetError::Pinched`] when pinches remain after many rounds.

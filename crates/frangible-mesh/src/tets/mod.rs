@@ -45,7 +45,7 @@ impl TetBody {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Draft {
     pub(crate) body: TetBody,
-    /// Whether a vertex was put on the surface.
+    /// For each vertex, true if it was put on the surface.
     pub(crate) on_surface: Vec<bool>,
 }
 

@@ -5,7 +5,7 @@ use crate::tets::Draft;
 use crate::tets::adjacency::neighbours;
 use frangible_geometry::NO_NEIGHBOUR;
 
-/// What was left of a body in several pieces.
+/// Report of dropping all pieces of a body but the largest.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Dropped {
     /// Pieces in all.

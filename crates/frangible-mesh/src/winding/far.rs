@@ -1,4 +1,4 @@
-//! What a far group of triangles adds to the winding number: a Taylor expansion with three terms [B18 Eq. 12].
+//! Contribution of a far group of triangles to the winding number: a Taylor expansion with three terms [B18 Eq. 12].
 //!
 //! The derivatives of −1/r are symmetric and without trace, so of each moment only that part counts: 3 + 5 + 7
 //! numbers. With d = centre − p the sum is (N·d + (Q(d) + O(d)/r²)/r²)/r³, Q and O harmonic polynomials.

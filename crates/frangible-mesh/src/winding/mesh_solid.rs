@@ -46,7 +46,7 @@ pub enum SolidError {
     NotFinite {
         /// The vertex.
         vertex: u32,
-        /// Where it is said to be.
+        /// Position given, m.
         position: DVec3,
     },
     /// Not between 1e-30 and 1e30 m.
@@ -118,7 +118,7 @@ impl MeshSolid {
         Err(SolidError::NoInside { highest })
     }
 
-    /// How often the surface goes around `p`: 1 in a closed body, 0 outside, between them near holes [J13 §3]. Exact but
+    /// Number of times the surface goes around `p`: 1 in a closed body, 0 outside, between them near holes [J13 §3]. Exact but
     /// for far groups of triangles, which are expanded to second order: off by less than 0.01 [B18 §3].
     #[must_use]
     pub fn winding_number(&self, p: DVec3) -> f64 {
@@ -126,7 +126,7 @@ impl MeshSolid {
         if self.turned { -w } else { w }
     }
 
-    /// Whether each point is inside; on all threads.
+    /// For each point, true if it is inside; on all threads.
     #[must_use]
     pub fn inside_many(&self, points: &[DVec3]) -> Vec<bool> {
         let mut inside = vec![false; points.len()];
@@ -190,7 +190,7 @@ impl MeshSolid {
         borders
     }
 
-    /// Where the winding number falls below one half between two parameters of a segment, with no triangle between.
+    /// Parameter at which the winding number falls below one half, between two of a segment with no triangle between.
     fn fade(&self, at: impl Fn(f64) -> DVec3, inside: f64, outside: f64) -> f64 {
         let between = |s: f64| inside + s * (outside - inside);
         let lack = |s: f64| {

@@ -8,7 +8,7 @@ use super::tree::{Child, Node, Tree};
 /// The place of a surface closest to some point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nearest {
-    /// Where, m.
+    /// Position, m.
     pub position: DVec3,
     /// Distance from the point asked for, m.
     pub distance: f64,

@@ -1,19 +1,19 @@
-//! Where a segment meets the triangles.
+//! Intersections of a segment with the triangles.
 
 use glam::DVec3;
 
 use super::packet::{Packet, WIDTH};
 use super::tree::{Child, Node, Tree};
 
-/// How far beyond its sides a triangle still counts as hit, in barycentric coordinates: rather twice than not at all.
+/// Margin beyond its sides in which a triangle still counts as hit, in barycentric coordinates: rather twice than not at all.
 const RIM: f64 = 1e-10;
 
 /// A place where a segment meets a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Hit {
-    /// Along the segment, 0..1.
+    /// Parameter along the segment, 0..1.
     pub(super) t: f64,
-    /// Whether the segment passes from the back of the triangle to its front.
+    /// True if the segment passes from the back of the triangle to its front.
     pub(super) leaves: bool,
     /// Index of the triangle in the surface.
     pub(super) face: u32,

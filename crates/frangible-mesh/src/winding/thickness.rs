@@ -1,4 +1,4 @@
-//! How thick a body is, as its mesher must know to resolve the walls.
+//! Thickness of a body, which its mesher must know to resolve the walls.
 
 use rayon::prelude::*;
 

@@ -8,7 +8,7 @@ const BINS: usize = 16;
 /// Below this depth ranges are halved, whatever it costs, so that recursion stays shallow.
 const DEEPEST_BEST_SPLIT: usize = 24;
 
-/// What a node's slot holds.
+/// Content of a node's slot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Child {
     Empty,

@@ -8,14 +8,14 @@ pub(crate) mod sound;
 
 use frangible_mesh::Surface;
 
-/// What a mesher should make of a surface.
+/// Result expected of meshing a surface.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Expect {
     /// A body.
     Solid {
         /// Volume from a closed form, to a per cent, m³.
         volume: f64,
-        /// Whether the triangles close without holes, overlaps, or faces the wrong way round.
+        /// True if the triangles close without holes, overlaps, or faces the wrong way round.
         watertight: bool,
     },
     /// An error.

@@ -1,4 +1,4 @@
-//! What single formats can say.
+//! Features of single formats.
 
 use super::*;
 

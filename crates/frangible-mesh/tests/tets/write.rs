@@ -346,7 +346,7 @@ pub(crate) fn vtk(s: &Sample, binary: bool, fifth: bool) -> Vec<u8> {
     out.0
 }
 
-/// How the arrays of a VTU are kept.
+/// Storage of the arrays of a VTU.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Kept {
     Ascii,

@@ -73,7 +73,7 @@ pub(crate) fn parse(bytes: &[u8], folder: Option<&Path>) -> Result<InputMesh, Re
     Ok(mesh)
 }
 
-/// How many pieces of bodies a film of this project shows: they overlap where the body was whole, and are no body together.
+/// Number of pieces of bodies that a film of this project shows: they overlap where the body was whole, and are no body together.
 fn pieces(root: &Root) -> usize {
     let generator = root.asset.generator.as_deref().unwrap_or_default();
     if !generator.starts_with("Frangible ") {

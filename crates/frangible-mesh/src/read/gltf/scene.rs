@@ -1,4 +1,4 @@
-//! Which meshes are shown, and where.
+//! Meshes that a scene shows, and their transforms.
 
 use glam::{DMat4, DQuat, DVec3};
 use gltf_json::scene::Node;
@@ -9,7 +9,7 @@ use crate::read::ReadError;
 /// A mesh that is shown.
 pub(super) struct Instance<'a> {
     pub(super) mesh: Index<Mesh>,
-    /// Into the world.
+    /// Transform into the world.
     pub(super) transform: DMat4,
     /// Name of the node that shows it.
     pub(super) node: Option<&'a str>,

@@ -25,12 +25,12 @@ struct Obj {
     uvs: Vec<Vec2>,
     normals: Vec<Vec3>,
     corners: Vec<Corner>,
-    /// Where the corners of each face end, and its material.
+    /// End of each face's corners, and its material.
     faces: Vec<(u32, u32)>,
     triangles: u64,
     /// Faces of fewer than three corners: some programs write edges so.
     skipped_faces: usize,
-    /// Whether something that is no colour was reported.
+    /// True once something that is no colour was reported.
     warned: bool,
 }
 

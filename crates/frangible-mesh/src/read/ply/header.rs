@@ -1,4 +1,4 @@
-//! What a PLY file says that it holds.
+//! Header of a PLY file.
 
 use crate::read::ReadError;
 use crate::read::text::{shown, words};

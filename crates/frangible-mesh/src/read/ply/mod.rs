@@ -28,13 +28,13 @@ pub(crate) fn parse(bytes: &[u8]) -> Result<InputMesh, ReadError> {
     Ok(mesh)
 }
 
-/// Where a vertex property goes.
+/// Part of the mesh that a vertex property fills.
 #[derive(Clone, Copy)]
 enum Slot {
     Position(usize),
     Normal(usize),
     Uv(usize),
-    /// Which channel, and what stands for all of it.
+    /// Channel, and the value of full intensity.
     Color(usize, f64),
     Nowhere,
 }
