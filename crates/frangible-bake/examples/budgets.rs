@@ -49,7 +49,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// What the blows that break a glass take, s, at places all over its surface, each with weak points of its own.
+/// Times of the blows that break a glass, s, at places all over its surface, each with weak points of its own.
 fn breaks(kind: &Breakable) -> Result<Vec<f64>, Box<dyn Error>> {
     let config = FractureConfig::default();
     let surface = &kind.asset().surface;

@@ -334,7 +334,7 @@ fn single(options: &Options) -> Result<()> {
 struct Run {
     /// Root of the mean square of its direction against where it should run, by area, degrees.
     turned: f64,
-    /// How far its end lies off the line, over the length of the path, %.
+    /// Distance of its end from the line, over the length of the path, %.
     off: f64,
     /// Speed over the one it should have.
     speed: f64,

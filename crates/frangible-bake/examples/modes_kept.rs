@@ -1,4 +1,4 @@
-//! What keeping modes costs, in seconds and MB, and how many of them a blow follows.
+//! Cost of keeping modes, in seconds and MB, and the number of them that a blow follows.
 //!
 //! `cargo run --release -p frangible-bake --example modes_kept [MODES …]`
 

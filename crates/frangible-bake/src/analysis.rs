@@ -14,11 +14,11 @@ use crate::mesh::BodyMesh;
 use crate::report::MeshReport;
 use crate::supports::Holder;
 
-/// What is said of a support that the elements cannot see.
+/// Message about a support that the elements cannot see.
 const TOO_SMALL: &str = "holds a part of the body smaller than the elements that carry the modes; enlarge its region or refine the \
      analysis mesh";
 
-/// What carries the modes.
+/// Elements that carry the modes.
 pub(crate) enum Analysis {
     /// Elements that end where the body ends: shapes that are meshed by a rule.
     Conforming(QuadraticMesh, MeshReport),
@@ -105,7 +105,7 @@ impl Analysis {
         }
     }
 
-    /// Where the fine mesh lies in the elements.
+    /// Locates the fine mesh in the elements.
     ///
     /// # Errors
     /// [`BakeError::OutsideAnalysisMesh`] for a conforming mesh that is too coarse.

@@ -35,7 +35,7 @@ use crate::{MOST_MODES, USUAL_MODES};
 /// Share of the meshing before a solid is covered by elements.
 const MESHING: f64 = 0.75;
 
-/// What to bake.
+/// Settings of a bake.
 #[derive(Clone, Debug)]
 pub struct BakeSpec {
     /// Name of the asset, shown in reports.
@@ -52,13 +52,13 @@ pub struct BakeSpec {
     /// Number of vibration modes that the asset keeps, 1 to [`MOST_MODES`], default [`USUAL_MODES`]. More of them make the stress about a
     /// sharp impact truer, at proportional cost in memory, and more in bake time.
     pub modes: usize,
-    /// How many of them, the lowest, a blow follows through time, 1 and up; the others answer its force statically, which costs
+    /// Number of the lowest modes that a blow follows through time, 1 and up; the others answer its force statically, which costs
     /// no steps. Default `None`: the fewest from which on following more changes no peak tension by 3 % under a hard blow,
     /// found by trial on the body; all of 60 or fewer.
     pub followed: Option<usize>,
     /// Seed of the irregularity of the fracture mesh, default 1.
     pub seed: u64,
-    /// What holds the body, default nothing. The asset has the modes of the held body, and knows which of its nodes are
+    /// Supports of the body, default none. The asset has the modes of the held body, and knows which of its nodes are
     /// held.
     pub supports: Vec<Support>,
     /// Named parts of the shape, for supports by name; default none. [`import_mesh`](crate::import_mesh) finds those of a

@@ -14,13 +14,13 @@ impl CancelToken {
         self.0.store(true, Ordering::Relaxed);
     }
 
-    /// Whether [`CancelToken::cancel`] was called on any clone.
+    /// Returns true if [`CancelToken::cancel`] was called on any clone.
     #[must_use]
     pub fn is_cancelled(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
 
-    /// What a progress callback is to return.
+    /// Value for a progress callback to return.
     pub(crate) fn flow(&self) -> ControlFlow<()> {
         match self.is_cancelled() {
             true => ControlFlow::Break(()),

@@ -1,4 +1,4 @@
-//! Where a point lies in the analysis mesh: element and barycentric coordinates.
+//! Location of points in the analysis mesh: element and barycentric coordinates.
 
 use frangible::glam::DVec3;
 use frangible::internals::asset::EmbeddedPoint;

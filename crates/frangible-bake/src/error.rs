@@ -13,7 +13,7 @@ pub enum BakeError {
     NotPositive {
         /// The quantity, with its unit.
         what: &'static str,
-        /// What was given.
+        /// The value given.
         value: f64,
     },
     /// A number above the largest one that there can be.
@@ -21,7 +21,7 @@ pub enum BakeError {
     TooLarge {
         /// The quantity, with its unit.
         what: &'static str,
-        /// What was given.
+        /// The value given.
         value: f64,
         /// The largest that is allowed.
         most: f64,
@@ -46,7 +46,7 @@ pub enum BakeError {
     Profile {
         /// Index of the station at fault.
         station: usize,
-        /// What is wrong and how to mend it.
+        /// The fault, and how to mend it.
         problem: &'static str,
     },
     /// A mesh that would not fit in a sensible amount of memory.
@@ -76,15 +76,15 @@ pub enum BakeError {
     Support {
         /// Index of the support at fault.
         support: usize,
-        /// What is wrong and how to mend it.
+        /// The fault, and how to mend it.
         problem: &'static str,
     },
     /// A support names a group that the body does not have.
     #[error("there is no group `{name}`{known}")]
     UnknownGroup {
-        /// What was asked for.
+        /// Name asked for.
         name: String,
-        /// What was probably meant, and the groups there are.
+        /// The group that was probably meant, and the groups that there are.
         known: String,
     },
     /// Supports that leave nothing to move.
@@ -125,7 +125,7 @@ pub enum BakeError {
         "the stiffness matrix could not be factorized ({reason}); check the mesh for slivers and loose parts"
     )]
     Factorization {
-        /// What the solver said.
+        /// Reason given by the solver.
         reason: String,
     },
     /// The eigenvalue iteration stopped short.

@@ -1,4 +1,4 @@
-//! How many of its modes a blow on the body follows through time.
+//! Number of modes that a blow on the body follows through time.
 //!
 //! The others answer the force of the moment statically, q = ξ F/λ: a mode much faster than the blow does just that, and costs
 //! no time steps. So the number hangs on the blow. What is taken here is a hard one: a steel ball of a tenth of the body's mass
@@ -144,7 +144,7 @@ fn sample(asset: &Asset, contacts: &[usize]) -> Vec<usize> {
     own
 }
 
-/// How far about a contact the stress is the near field's, m.
+/// Distance from a contact within which the stress is the near field's, m.
 fn left_out(asset: &Asset, triangle: usize) -> f32 {
     let wall = asset.surface.walls.at(triangle as u32);
     wall.map_or(0.0, |wall| NEAR * wall.thickness as f32)

@@ -7,7 +7,7 @@ use frangible::glam::DVec3;
 use frangible::internals::mesh::closest_on_triangle;
 use frangible_mesh::{InputMesh, Similarity};
 
-/// How far from a group a node may lie to be on it, in its shortest edges: the fine mesh rounds edges off and follows
+/// Distance from a group up to which a node lies on it, in its shortest edges: the fine mesh rounds edges off and follows
 /// curved walls by chords, while the next layer of nodes is most of an edge away.
 const SHARE_OF_EDGE: f64 = 0.2;
 
@@ -53,9 +53,9 @@ pub(crate) struct Reach {
 }
 
 struct Near {
-    /// Where it is in the frame of the shape, m.
+    /// Position in the frame of the shape, m.
     position: DVec3,
-    /// How near is near, m.
+    /// Distance from the group up to which the node lies on it, m.
     reach: f64,
     node: u32,
 }
@@ -123,7 +123,7 @@ impl Reach {
     }
 }
 
-/// Which nodes lie on a face of one tetrahedron only.
+/// For each node, true if it lies on a face of one tetrahedron only.
 fn outer_nodes<const N: usize>(nodes: usize, tets: &[[u32; N]]) -> Vec<bool> {
     let mut faces: Vec<[u32; 3]> = Vec::with_capacity(4 * tets.len());
     for tet in tets {

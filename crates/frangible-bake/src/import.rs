@@ -15,7 +15,7 @@ use crate::shapes::{Shape, SolidShape};
 /// Places at which the walls are measured: the twentieth of them that is thinnest is then twenty or so.
 const SAMPLES: usize = 400;
 
-/// How to take in a mesh.
+/// Settings for taking in a mesh.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ImportOptions {
@@ -53,11 +53,11 @@ pub struct Imported {
     /// Its groups, objects and materials by name, in the frame of the shape: hand them to
     /// [`BakeSpec::groups`](crate::BakeSpec::groups), for supports by name.
     pub groups: Vec<Group>,
-    /// What was mended.
+    /// Repairs that were made.
     pub mended: RepairReport,
-    /// How thick what the mesh encloses is, m.
+    /// Thickness of the solid that the mesh encloses, m.
     pub thickness: Thickness,
-    /// What takes the file's coordinates to those of the shape.
+    /// Transform from the file's coordinates to those of the shape.
     pub similarity: Similarity,
 }
 

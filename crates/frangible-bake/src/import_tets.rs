@@ -12,11 +12,11 @@ use crate::shapes::{AnalysisChoice, Shape, TetShape};
 pub struct ImportedTets {
     /// The body; its groups are in it.
     pub shape: Shape,
-    /// What was mended.
+    /// Repairs that were made.
     pub mend: TetMend,
     /// Groups of tetrahedra, if there are several: a body has one material, so they only name places.
     pub volumes: Vec<String>,
-    /// What takes the file's coordinates to those of the shape.
+    /// Transform from the file's coordinates to those of the shape.
     pub similarity: Similarity,
 }
 

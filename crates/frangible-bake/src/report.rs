@@ -1,4 +1,4 @@
-//! What a bake tells while it runs and when it is done.
+//! Progress and report of a bake.
 
 use std::fmt;
 
@@ -26,7 +26,7 @@ pub enum Stage {
     Walls,
     /// Peak stress of each mode.
     Stress,
-    /// How many modes a blow follows.
+    /// Finding the number of modes that a blow follows.
     Followed,
 }
 
@@ -45,7 +45,7 @@ impl fmt::Display for Stage {
     }
 }
 
-/// How far a bake has come.
+/// Progress of a bake.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
     /// The stage that runs.
@@ -86,7 +86,7 @@ pub struct BakeReport {
     pub analysis: MeshReport,
     /// The mesh that carries cracks.
     pub fracture: MeshReport,
-    /// How a solid was filled with tetrahedra; `None` for shapes that are meshed by a rule.
+    /// Report of filling a solid with tetrahedra; `None` for shapes that are meshed by a rule.
     pub tetrahedra: Option<TetReport>,
     /// Unknowns of the eigenvalue problem.
     pub unknowns: usize,

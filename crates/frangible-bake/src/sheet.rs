@@ -18,7 +18,7 @@ pub(crate) const FREE: u32 = u32::MAX;
 pub(crate) struct Sheet {
     /// Two parameters per vertex.
     pub(crate) coords: Vec<[f64; 2]>,
-    /// Which of the two parameters may change.
+    /// For each of the two parameters, true if it may change.
     pub(crate) slides: Vec<[bool; 2]>,
     /// Sharp line the vertex lies on, or [`FREE`]; edges along a line are never flipped.
     pub(crate) line: Vec<u32>,

@@ -1,4 +1,4 @@
-//! What holds a body: parts of it that do not move, in all directions or in some.
+//! Supports of a body: parts of it that do not move, in all directions or in some.
 
 use frangible::glam::DVec3;
 use frangible_mesh::did_you_mean;
@@ -16,9 +16,9 @@ const MOST_SHOWN: usize = 20;
 /// A part of a body that something outside holds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Support {
-    /// Which part; what of it lies outside the body does not matter.
+    /// The part that is held; what of the region lies outside the body does not matter.
     pub region: Region,
-    /// Along which axes of the frame of the shape it is held: all of them clamp it, z alone lets it slide in the
+    /// For each axis of the frame of the shape, true if the part is held along it: all of them clamp it, z alone lets it slide in the
     /// plane across z.
     pub axes: [bool; 3],
 }
@@ -59,7 +59,7 @@ pub enum Region {
         /// Its radius, m.
         radius: f64,
     },
-    /// What lies on a [`Group`] of [`BakeSpec::groups`](crate::BakeSpec::groups): nodes of the outer surface nearer to it
+    /// Nodes on a [`Group`] of [`BakeSpec::groups`](crate::BakeSpec::groups): those of the outer surface nearer to it
     /// than a fifth of their shortest edge.
     Group(String),
 }
@@ -85,7 +85,7 @@ impl Region {
         }
     }
 
-    /// How far a point lies outside, m; zero or less within. Of a group nothing is known here.
+    /// Distance of a point outside the region, m; zero or less within. Infinite for a group, whose nodes are not known here.
     fn gap(&self, p: DVec3) -> f64 {
         match *self {
             Self::HalfSpace { point, normal } => (p - point).dot(normal.normalize_or_zero()),
@@ -95,7 +95,7 @@ impl Region {
         }
     }
 
-    /// What is wrong with its numbers, as the rest of a sentence.
+    /// Returns the fault of its numbers, if there is one, as the rest of a sentence.
     fn problem(&self) -> Option<&'static str> {
         match *self {
             Self::HalfSpace { point, normal } => {
@@ -179,7 +179,7 @@ fn group_of<'a>(region: &Region, groups: &'a [Group]) -> Result<Option<&'a Group
 pub(crate) struct Holder<'a> {
     /// The supports, each with the group that it names, if any.
     supports: Vec<(&'a Support, Option<&'a Group>)>,
-    /// What is added to a place in the body's frame to have it in that of the shape, m.
+    /// Offset from a place in the body's frame to the same in that of the shape, m.
     origin: DVec3,
     tolerance: f64,
 }

@@ -85,7 +85,7 @@ struct Bend {
     stiffening: f64,
 }
 
-/// What the rays from a triangle found: thickness and the face behind.
+/// Thickness and the face behind, as the rays from a triangle found them.
 type Measured = Option<(f64, u32)>;
 
 /// The surface, triangle by triangle.
@@ -288,7 +288,7 @@ impl<'a> Faces<'a> {
         edges
     }
 
-    /// Which open triangles hang together with one that is at least so far from every edge.
+    /// For each triangle, true if it hangs together, over open ones, with an open one at least so far from every edge.
     fn wide(&self, open: &[bool], distances: &[f64], radius: f64) -> Vec<bool> {
         let mut wide = vec![false; self.count()];
         let mut waiting = Vec::new();

@@ -1,4 +1,4 @@
-//! What a bake gives survives its file.
+//! A baked asset survives its file.
 
 use frangible::internals::TetMesh;
 use frangible::{Asset, Material};

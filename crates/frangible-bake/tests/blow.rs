@@ -1,4 +1,4 @@
-//! What holds of every blow: energy, momentum, what the modes left out give, and that no input makes nonsense. Beside closed forms
+//! Properties of every blow: energy, momentum, what the modes left out give, and that no input makes nonsense. Beside closed forms
 //! blows stand in `frangible-lab verify` (cases `blow` and `near-field`).
 
 use std::sync::{Arc, OnceLock};

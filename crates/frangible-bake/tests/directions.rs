@@ -94,7 +94,7 @@ fn weak_at(asset: &Arc<Asset>, place: Vec3, seed: u64) -> Body {
     body
 }
 
-/// What a crack cuts under a steady motion, and the speed that it should have, m/s.
+/// Cuts of a crack under a steady motion, and the speed that it should have, m/s.
 fn under(body: &Body, amplitudes: &[f32], time: f64) -> (Vec<Cut>, f64) {
     let mut config = FractureConfig::default();
     (config.branching, config.energy_ledger) = (false, false);
@@ -225,7 +225,7 @@ fn a_crack_runs_round_a_tube_at_its_speed() {
     }
 }
 
-/// Where a square pane is hit in its middle, the symmetries of the square carry the directions of the cracks into each other, whatever the
+/// If a square pane is hit in its middle, the symmetries of the square carry the directions of the cracks into each other, whatever the
 /// mesh is. With flaws at the middles of their faces χ² is 112 in the first of these meshes.
 #[test]
 fn the_mesh_does_not_tell_in_which_directions_a_pane_breaks() {

@@ -15,7 +15,7 @@ const LAYER: f32 = 0.03 / 9.0;
 /// Half the sides of a bar, m: bending that opens the crack is softest.
 const HALF: [f32; 3] = [0.075, 0.02, 0.015];
 
-/// Where the crack lies along the bar, between nodes, m.
+/// Position of the crack along the bar, between nodes, m.
 const PLACE: f32 = 0.0013;
 
 /// The bar with a straight crack from one side, `depth` deep.

@@ -28,7 +28,7 @@ fn volume(portion: &Portion) -> f64 {
     solid.tets.iter().map(of_tet).sum()
 }
 
-/// What was seen of each generation.
+/// Counts of the breaks of each generation, and of the pieces.
 #[derive(Default)]
 struct Seen {
     breaks: [usize; GENERATIONS as usize + 1],

@@ -1,4 +1,4 @@
-//! What is baked, checked against closed forms and brute force.
+//! Baking, checked against closed forms and brute force.
 
 mod asset_file;
 mod bake;

@@ -9,7 +9,7 @@ use frangible_bake::{
     scaled, with_material,
 };
 
-/// What is baked: by a rule or covered by a lattice, free or held at one end.
+/// Kind of body that is baked: by a rule or covered by a lattice, free or held at one end.
 #[derive(Clone, Copy, PartialEq)]
 enum Kind {
     Glass,
@@ -264,7 +264,7 @@ fn another_size_is_what_its_bake_gives() {
     }
 }
 
-/// Where the block is hit, times its size.
+/// Hits the block at one place, times its size.
 fn hit(asset: &Asset, size: f32) -> Outcome {
     let striker = Striker {
         contact_modulus: 2e11,

@@ -60,7 +60,7 @@ fn a_bent_brick_bears_more_than_its_tensile_strength() {
     assert!((1.1..2.6).contains(&ratio), "{ratio}");
 }
 
-/// Of geometrically similar rods the larger are weaker, as the weakest of more flaws is: by the m-th root of the volume.
+/// Larger rods that are geometrically similar are weaker, as the weakest of more flaws is: by the m-th root of the volume.
 #[test]
 fn similar_glass_rods_are_weaker_the_larger_they_are() {
     let sizes = [0.5, 1.0, 2.0];

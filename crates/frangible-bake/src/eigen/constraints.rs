@@ -1,4 +1,4 @@
-//! What of a body is held, and which rigid motions that leaves.
+//! Constraints of a held body, and the rigid motions that they leave.
 
 use frangible::glam::DVec3;
 
@@ -6,7 +6,7 @@ use frangible::glam::DVec3;
 /// of the motion, is free. Far above the rounding of positions, far below any part of a body that can hold it.
 const INDEPENDENT: f64 = 1e-6;
 
-/// What is held of a system. The default holds nothing.
+/// Constraints of a system. The default holds nothing.
 #[derive(Clone, Debug, Default)]
 pub struct Constraints {
     /// Unknowns that are zero, rising: they are taken out of the problem.

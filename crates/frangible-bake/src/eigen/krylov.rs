@@ -35,7 +35,7 @@ pub(crate) struct Krylov<'a> {
     /// The rigid motions, if any, padded with zeros.
     rigid: Vec<Pair>,
     pub(crate) blocks: Vec<Pair>,
-    /// How sums are taken.
+    /// Method of summation.
     pub(crate) sums: Sums,
 }
 

@@ -45,7 +45,7 @@ use watch::Watch;
 /// Share of the work that is done when the modes are found and not yet checked.
 const FIRST_ATTEMPT: f64 = 0.95;
 
-/// How exact modes must be.
+/// Accuracy that modes must have.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Accuracy {
     /// Unknowns up to which the dense solver is used, which is exact.
@@ -56,7 +56,7 @@ pub(crate) struct Accuracy {
     tolerance: f64,
     /// Relative residual that every mode must reach, where rounding allows it.
     residual: f64,
-    /// How sums are taken.
+    /// Method of summation.
     sums: Sums,
 }
 

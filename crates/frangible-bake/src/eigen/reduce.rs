@@ -5,7 +5,7 @@ use faer::sparse::{SparseColMat, SymbolicSparseColMat};
 use crate::eigen::basis::Block;
 use crate::eigen::metric::Metric;
 
-/// Which unknowns are left, and their numbers among those.
+/// Unknowns that are left, and their numbers among those.
 pub(crate) struct Reduction {
     /// Rising.
     free: Vec<usize>,
@@ -32,7 +32,7 @@ impl Reduction {
         Some(Self { free, number })
     }
 
-    /// How many unknowns are left.
+    /// Number of unknowns that are left.
     pub(crate) fn unknowns(&self) -> usize {
         self.free.len()
     }

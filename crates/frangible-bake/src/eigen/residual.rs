@@ -8,7 +8,7 @@ use crate::eigen::reduce::Reduction;
 use crate::error::BakeError;
 use crate::fem::{Mass, System};
 
-/// What every mode of a bake must reach, where f64 rounding allows it.
+/// Largest relative residual of a mode, where f64 rounding allows it.
 const LIMIT: f64 = 1e-8;
 
 /// Relative residual ‖Kφ − λMφ‖ / ‖Kφ‖ of one mode, and the limit it must meet: 1e-8, or ten times

@@ -1,4 +1,4 @@
-//! Where the time of the mode stage goes, how far it has come, and whether to go on.
+//! Progress of the mode stage, its time by phase, and its cancellation.
 
 use std::ops::ControlFlow;
 use web_time::Instant;

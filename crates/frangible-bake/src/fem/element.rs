@@ -6,7 +6,7 @@ use frangible::glam::DVec3;
 use crate::fem::quadratic::shape_gradients;
 use crate::mesh::{barycentric_gradients, tet_volume};
 
-/// What the modes depend on besides the shape.
+/// Constants of the material on which the modes depend.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Elasticity {
     /// Young's modulus E, Pa.

@@ -1,4 +1,4 @@
-//! Where the entries of assembled matrices stand: lower triangles, three unknowns per node.
+//! Places of the entries of assembled matrices: lower triangles, three unknowns per node.
 
 use faer::sparse::{SparseColMat, SymbolicSparseColMat};
 

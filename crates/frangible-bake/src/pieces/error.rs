@@ -11,13 +11,13 @@ pub enum PieceError {
     /// Its finite elements.
     #[error(transparent)]
     Elements(#[from] BakeError),
-    /// What was found does not fit the piece.
+    /// The modes found do not fit the piece.
     #[error(transparent)]
     Body(#[from] InputError),
     /// A matrix that cannot be factored.
     #[error("the stiffness of a piece cannot be factored ({reason}); it does not break again")]
     Factorization {
-        /// What the solver said.
+        /// Reason given by the solver.
         reason: String,
     },
 }

@@ -13,9 +13,9 @@ use crate::pieces::PieceError;
 pub(crate) struct Lattice {
     /// The elements, in the form that an asset stores.
     pub(crate) analysis: AnalysisMesh,
-    /// Where the centroids of the portion's uncut tetrahedra lie.
+    /// Places of the centroids of the portion's uncut tetrahedra in the elements.
     pub(crate) tets: Vec<EmbeddedPoint>,
-    /// Where its nodes lie.
+    /// Places of its nodes in the elements.
     pub(crate) nodes: Vec<EmbeddedPoint>,
     /// K and M, with the springs that hold it.
     pub(crate) system: System,

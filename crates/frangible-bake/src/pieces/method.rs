@@ -1,6 +1,6 @@
 //! Names of the methods.
 
-/// How a piece is found to vibrate.
+/// Method by which the modes of a piece are found.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Method {
@@ -8,7 +8,7 @@ pub enum Method {
     ParentModes,
     /// A small modal analysis of its own ([`reanalysis`](crate::pieces::reanalysis())); [`Method::ParentModes`] until it is ready.
     Reanalysis,
-    /// What was measured to be best: see [`Pieces::method_for`](crate::pieces::Pieces::method_for).
+    /// The method that was measured to be best: see [`Pieces::method_for`](crate::pieces::Pieces::method_for).
     #[default]
     Auto,
 }

@@ -1,6 +1,6 @@
-//! How pieces of broken bodies vibrate, so that they break again: two ways, and [`Pieces`], which chooses.
+//! Vibration of pieces of broken bodies, so that they break again: two ways, and [`Pieces`], which chooses.
 //!
-//! How right each way is, and what it costs, is measured by `frangible-lab pieces` (`docs/recursive.md`).
+//! Accuracy and cost of each way are measured by `frangible-lab pieces` (`docs/recursive.md`).
 //!
 //! Every piece gets modes of its own. Pieces that react without inertia, and modes borrowed from similar shapes, were measured
 //! to decide worse (`docs/recursive.md`).

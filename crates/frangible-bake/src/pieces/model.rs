@@ -1,4 +1,4 @@
-//! Which method serves which piece, and when.
+//! Choice of the method by which the modes of a piece are found.
 
 use std::sync::Arc;
 
@@ -12,11 +12,11 @@ use crate::pieces::{PieceError, parent_modes, reanalysis};
 /// `docs/recursive.md`, rounded up.
 const PER_TET: f64 = 12e-6;
 
-/// Time that a thread takes for modes of the piece's own besides, for each element, s: the median there, 0.25 ms, times what portable sums
+/// Time that a thread takes in addition for modes of the piece's own, for each element, s: the median there, 0.25 ms, times what portable sums
 /// take longer, rounded up.
 const PER_ELEMENT: f64 = 0.4e-3;
 
-/// Finds how pieces vibrate, by one of two methods.
+/// Finds the modes of pieces, by one of two methods.
 #[derive(Debug)]
 #[non_exhaustive]
 pub struct Pieces {
@@ -67,7 +67,7 @@ impl Pieces {
         self.elements.unwrap_or_else(by_size)
     }
 
-    /// How a piece of `parent` vibrates, by one method and at once.
+    /// Finds the modes of a piece of `parent`, by one method and at once.
     ///
     /// # Errors
     /// A piece that has no elements, or whose matrices cannot be solved.

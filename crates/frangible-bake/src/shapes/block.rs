@@ -35,7 +35,7 @@ pub(crate) fn validate(size: [f64; 3]) -> Result<(), BakeError> {
         .try_for_each(|&s| positive("a side of the box, in m,", s))
 }
 
-/// Where a place of the box is in the body, m.
+/// Map from a place of the box to its place in the body, m.
 pub(crate) type Warp<'a> = &'a dyn Fn(DVec3) -> DVec3;
 
 /// The box as it is.

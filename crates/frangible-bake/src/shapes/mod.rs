@@ -27,7 +27,7 @@ const ANALYSIS_TETS: f64 = 3000.0;
 /// Tetrahedra of a default fracture mesh: elements about as long as a wall is thick.
 pub(crate) const FRACTURE_TETS: f64 = 42_000.0;
 
-/// How finely to mesh.
+/// Resolution of a mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeshSize {
     /// Edge length of the elements, m. Halving it makes four to eight times as many.

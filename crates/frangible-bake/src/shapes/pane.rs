@@ -22,12 +22,12 @@ pub struct PaneShape {
     pub size: [f64; 3],
     /// Radius of its corners, m; 0: sharp ones.
     pub corner: f64,
-    /// How much higher than its left and right edges its middle is, m, along a parabola; 0: flat.
+    /// Height of its middle above its left and right edges, m, along a parabola; 0: flat.
     pub bow: f64,
 }
 
 impl PaneShape {
-    /// What cannot be built.
+    /// Refuses a pane that cannot be built.
     pub(crate) fn validate(&self) -> Result<(), BakeError> {
         block::validate(self.size)?;
         let [width, depth, _] = self.size;
@@ -59,7 +59,7 @@ impl PaneShape {
         4.0 * self.bow * (width - 2.0 * x) / (width * width)
     }
 
-    /// Where a place of the box is in the pane, m.
+    /// Maps a place of the box to its place in the pane, m.
     pub(crate) fn place(&self, p: DVec3) -> DVec3 {
         let [width, _, thickness] = self.size;
         let [x, y] = self.rounded([p.x, p.y]);

@@ -33,7 +33,7 @@ const THICK: f64 = 0.5;
 /// A solid and how it is to be filled with tetrahedra.
 #[derive(Clone)]
 pub struct SolidShape {
-    /// Where the inside is, m.
+    /// The solid, m.
     pub solid: Arc<dyn Solid>,
     /// Thickness of the thinnest walls, m, if there are any to speak of: the fracture mesh resolves them.
     pub wall: Option<f64>,

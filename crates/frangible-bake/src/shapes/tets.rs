@@ -19,7 +19,7 @@ const MOST_OWN: usize = 20_000;
 /// 0.33, a ball 0.41.
 const THIN: f64 = 0.2;
 
-/// What carries the modes of a body given by its tetrahedra.
+/// Elements that carry the modes of a body given by its tetrahedra.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum AnalysisChoice {
@@ -37,9 +37,9 @@ pub enum AnalysisChoice {
 pub struct TetShape {
     /// The tetrahedra, m.
     pub body: Arc<TetBody>,
-    /// Whether they came as elements of second order.
+    /// True if they came as elements of second order.
     pub quadratic: bool,
-    /// What carries the modes.
+    /// Elements that carry the modes.
     pub analysis: AnalysisChoice,
     /// Named parts, by their nodes in `body`.
     pub groups: Arc<Vec<NodeGroup>>,
@@ -95,7 +95,7 @@ impl TetShape {
         parts
     }
 
-    /// Whether the body's own elements carry the modes.
+    /// Returns true if the body's own elements carry the modes.
     #[must_use]
     pub fn carries_modes(&self) -> bool {
         match self.analysis {

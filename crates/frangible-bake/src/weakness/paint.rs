@@ -40,7 +40,7 @@ impl Channel {
     }
 }
 
-/// What a channel of the vertex colours means: factors on the material's numbers where it is 0 and where it is 1, linear
+/// Meaning of a channel of the vertex colours: factors on the material's numbers where it is 0 and where it is 1, linear
 /// between them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Paint {
@@ -67,7 +67,7 @@ impl Paint {
         }
     }
 
-    /// Whether its numbers can be used.
+    /// Checks its numbers.
     ///
     /// # Errors
     /// A factor that is not finite, or not above zero (weak points: below zero).

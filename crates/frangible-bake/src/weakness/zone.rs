@@ -35,7 +35,7 @@ pub enum Zone {
 }
 
 impl Zone {
-    /// Whether a point lies in it.
+    /// Returns true if a point lies in it.
     #[must_use]
     pub fn contains(&self, p: Vec3) -> bool {
         match self {
@@ -51,7 +51,7 @@ impl Zone {
         }
     }
 
-    /// Whether its numbers can be used.
+    /// Checks its numbers.
     ///
     /// # Errors
     /// A number that is not finite, a radius that is not above zero, a normal without direction, a line without points.
@@ -94,10 +94,10 @@ fn distance(p: Vec3, a: Vec3, b: Vec3) -> f32 {
     p.distance(a + along * t)
 }
 
-/// A zone and what is different there.
+/// A zone, and the factors on the material's numbers there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Patch {
-    /// Where.
+    /// The zone.
     pub zone: Zone,
     /// Factor on the tensile strength, if it differs.
     pub strength: Option<f32>,

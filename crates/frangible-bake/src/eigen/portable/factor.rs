@@ -120,7 +120,7 @@ fn spread(
     }
 }
 
-/// Where these rows lie in a supernode that has them all.
+/// Finds the places of these rows in a supernode that has them all.
 #[inline(always)]
 fn rows_in(
     symbolic: &SymbolicSupernodalCholesky<usize>,

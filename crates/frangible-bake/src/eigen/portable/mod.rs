@@ -13,12 +13,12 @@ pub(crate) use panel::{inner, multiply, subtract};
 pub(crate) use substitution::solve;
 pub(crate) use symmetric::symmetric;
 
-/// Which of two ways sums are taken.
+/// Method of summation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Sums {
-    /// They are taken as fast as this machine can.
+    /// As fast as this machine can.
     Fast,
-    /// They have the same bits everywhere.
+    /// With the same bits everywhere.
     Portable,
 }
 

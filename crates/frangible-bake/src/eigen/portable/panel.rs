@@ -1,4 +1,4 @@
-//! What is done with panels of eight vectors.
+//! Products of panels of eight vectors.
 
 use crate::eigen::panel::{Row, Square, WIDTH, add_multiple, vectorised};
 

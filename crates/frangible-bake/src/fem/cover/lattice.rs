@@ -127,7 +127,7 @@ pub(crate) fn in_sides(q: Quarters) -> DVec3 {
     DVec3::from_array(q.map(|c| 0.25 * f64::from(c)))
 }
 
-/// Where the lattice lies.
+/// Position and size of the lattice.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Lattice {
     /// Corner of cube 0, m.

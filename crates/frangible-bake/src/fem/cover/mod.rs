@@ -4,7 +4,7 @@
 //! Stiffness and mass are integrated exactly over the body alone, by cutting its tetrahedra along the planes of the
 //! lattice: a Ritz method, whose frequencies fall towards the true ones as the elements grow more.
 //!
-//! Where two walls share a cell of the lattice, the cell has a copy for each of them. Barycentric coordinates of embedded points
+//! If two walls share a cell of the lattice, the cell has a copy for each of them. Barycentric coordinates of embedded points
 //! may be slightly negative.
 
 mod cut;
@@ -146,7 +146,7 @@ impl Cover {
             .find(|&e| self.barycentric(e, p).iter().all(|&l| l > -1e-9))
     }
 
-    /// Where the tetrahedra and nodes of the body lie in the elements. Barycentric coordinates are slightly
+    /// Locates the tetrahedra and nodes of the body in the elements. Barycentric coordinates are slightly
     /// negative where a sliver of the body is carried by the element next to it.
     #[must_use]
     pub fn embedding(&self, body: &BodyMesh) -> Embedding {

@@ -26,7 +26,7 @@ const EDGE_POINTS: (f64, f64) = (0.042_546_020_777_081_466, 0.045_503_704_125_64
 /// The rule of second order: the three equal coordinates of its points, (5 − √5)/20.
 const FOUR_POINTS: f64 = 0.138_196_601_125_010_5;
 
-/// Where the monomials start whose lowest factor is L_i: of second, third and fourth order.
+/// Places of the first monomials whose lowest factor is L_i: of second, third and fourth order.
 const PAIR: [usize; 4] = [0, 4, 7, 9];
 const TRIPLE: [usize; 4] = [0, 10, 16, 19];
 const QUADRUPLE: [usize; 4] = [0, 20, 30, 34];

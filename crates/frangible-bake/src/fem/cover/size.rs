@@ -1,4 +1,4 @@
-//! How large the cells must be for a wanted number of elements.
+//! Size of the cells for a wanted number of elements.
 
 use frangible::glam::DVec3;
 

@@ -84,7 +84,7 @@ pub(crate) fn carriers(cells: &[Cell], volumes: &[f64], contacts: &Contacts) -> 
     carrier
 }
 
-/// Whether two neighbours of a component hang together by faces round the edge that all three have in common.
+/// Returns true if two neighbours of a component hang together by faces round the edge that all three have in common.
 fn joined_without(
     component: u32,
     from: u32,

@@ -12,7 +12,7 @@ use crate::fem::pattern::Pattern;
 use crate::fem::quadratic::shape_values;
 use crate::mesh::{BodyMesh, tet_volume};
 
-/// How far a displacement reaches into what is held, in cube sides of the lattice: √(E / stiffness per volume). Stiffer
+/// Depth to which a displacement reaches into the held part, in cube sides of the lattice: √(E / stiffness per volume). Stiffer
 /// springs would hold whole elements where the support ends amid one; softer ones let the end of the support give way.
 /// Measured, first frequency of clamped rods of 3 000 elements against a beam: 0.03 is 0.5 to 0.8 % low, 0.1 1 % low,
 /// 0.3 2 to 5 % low.

@@ -1,4 +1,4 @@
-//! Which element each part of the body belongs to, and which elements share nodes.
+//! Elements of the parts of a body, and the nodes that elements share.
 //!
 //! Parts of one cell that do not hang together there get an element each, and elements share a node only
 //! where their parts hang together: two walls that pass through one cell stay apart.
