@@ -1,4 +1,4 @@
-//! How hard must a stone be thrown? A question that changes nothing: `cargo run --release -p frangible-rapier --example ask`.
+//! Finds the speed at which a stone breaks a window, and changes nothing: `cargo run --release -p frangible-rapier --example ask`.
 
 use std::error::Error;
 

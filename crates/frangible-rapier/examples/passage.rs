@@ -1,5 +1,5 @@
-//! How fast a ball goes on through the pane that it breaks, by the length of a step and by how finely colliders follow the pieces: what of it
-//! is the blow's, and what the engine's. A measuring tool: `cargo run --release -p frangible-rapier --example passage -- 20 40` throws at
+//! Speed of a ball behind the pane that it breaks, by the length of a step and by the detail of the pieces' colliders, to tell the blow's part
+//! from the engine's. A measuring tool: `cargo run --release -p frangible-rapier --example passage -- 20 40` throws at
 //! 20 m/s with forty seeds.
 
 use std::error::Error;

@@ -9,7 +9,7 @@ use tumble::{BODIES, baked, tumble};
 /// The whole way down, s.
 const SECONDS: f32 = 6.0;
 
-/// How far they fall on the first step, m.
+/// Height from which they fall on the first step, m.
 const DROP: f32 = 0.02;
 
 fn main() {

@@ -1,4 +1,4 @@
-//! What a broken bowl leaves becomes one fixed body, until a ball hits it: `cargo run --release -p frangible-rapier --example rubble`.
+//! The pieces of a broken bowl become one fixed body, until a ball hits it: `cargo run --release -p frangible-rapier --example rubble`.
 
 use std::error::Error;
 use std::sync::Arc;

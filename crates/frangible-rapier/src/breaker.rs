@@ -20,7 +20,7 @@ use crate::error::WorldError;
 use crate::event::BreakEvent;
 use crate::world::BreakableWorld;
 
-/// What Rapier's pipeline works on, borrowed from a game for one call: the arguments of [`PhysicsPipeline::step`].
+/// Data on which Rapier's pipeline works, borrowed from a game for one call: the arguments of [`PhysicsPipeline::step`].
 pub struct Sets<'a> {
     /// Acceleration of gravity, m/s².
     pub gravity: Vector,
@@ -131,14 +131,14 @@ impl Breaker {
         stepped.map(|()| self.world.breaks())
     }
 
-    /// Everything else that a [`BreakableWorld`] can do, on the game's sets: insert breakable bodies, ask what would break, push,
+    /// Does everything else that a [`BreakableWorld`] can do, on the game's sets: insert breakable bodies, ask what would break, push,
     /// save and restore.
     pub fn with<T>(&mut self, sets: Sets<'_>, work: impl FnOnce(&mut BreakableWorld) -> T) -> T {
         let mut lent = Lent::new(&mut self.world, sets);
         work(lent.world())
     }
 
-    /// What is known without the game's sets: breaks of the last step, breakable bodies, counts, times.
+    /// State that is known without the game's sets: breaks of the last step, breakable bodies, counts, times.
     #[must_use]
     pub fn state(&self) -> &BreakableWorld {
         &self.world

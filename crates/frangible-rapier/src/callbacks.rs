@@ -14,7 +14,7 @@ use rapier3d::pipeline::{
 
 use crate::fragments::siblings::Siblings;
 
-/// What the caller wants to be asked and told.
+/// Hooks and event handler of the caller.
 #[derive(Clone, Copy)]
 pub(crate) struct Callbacks<'a> {
     pub(crate) hooks: &'a dyn PhysicsHooks,
@@ -50,7 +50,7 @@ impl PhysicsHooks for Hooks<'_> {
     }
 }
 
-/// What Rapier said in a step.
+/// An event that Rapier reported in a step.
 enum Said {
     Collision(CollisionEvent, Option<Box<ContactPair>>),
     Force(Real, Box<ContactPair>, Real),

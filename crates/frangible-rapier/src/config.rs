@@ -30,33 +30,32 @@ pub enum Breaking {
     },
 }
 
-/// How finely a collider follows a body.
+/// Level of detail of a collider.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ColliderDetail {
-    /// Convex parts at most, 1 or more: neighbouring cells are put together until they are so few. 1 is the convex hull.
+    /// Convex parts at most, 1 or more: neighbouring cells are merged until no more are left. 1 is the convex hull.
     pub parts: usize,
     /// Points of each part at most, 4 or more.
     pub hull_points: usize,
 }
 
-/// Which fragments break again, and from when.
+/// Settings for fragments that break again.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct PieceConfig {
-    /// A fragment breaks again if it comes from fewer breaks than this, itself included: 1, and the pieces of baked bodies
-    /// are the last that break. Default 3; 0 for none.
+    /// Generations of fragments that break again: with 1, the pieces of baked bodies are the last that break. Default 3; 0 for none.
     pub generations: u32,
-    /// Lighter fragments do not break again, kg. Default 2e-3, a shard of glass 20 mm wide.
+    /// Mass of the lightest fragments that break again, kg. Default 2e-3, a shard of glass 20 mm wide.
     pub least_mass: f32,
-    /// Fragments of fewer uncut tetrahedra do not. Default 60.
+    /// Fewest uncut tetrahedra of a fragment that breaks again. Default 60.
     pub least_tets: usize,
-    /// From so long after its birth a fragment can break, s. Default 0.02: the blow that made it is over by then.
+    /// Time from a fragment's birth until it can break, s. Default 0.02: the blow that made it is over by then.
     pub delay: f32,
-    /// From so long after its birth it has the modes that take longer to find, s. Default 0.15.
+    /// Time from its birth until it has the modes that take longer to find, s. Default 0.15.
     pub later: f32,
     /// Find new modes for bodies that are cracked but whole, too. Default on.
     pub cracked: bool,
-    /// How much work of other threads, s, goes into pieces in a second of the world, for each of the two times above. What would take longer,
+    /// Work of other threads, s, that goes into pieces in a second of the world, for each of the two times above. Work beyond it,
     /// by what the [model](frangible::internals::PieceModel::expected_times) expects, is due later than they say, heavy fragments first.
     /// Default infinity: everything is due when they say, and the world waits for what is not ready. A game takes 0.5 or so: a body that
     /// bursts into a hundred pieces then costs no frame.
@@ -82,7 +81,7 @@ impl Default for PieceConfig {
     }
 }
 
-/// What becomes of pieces that rest.
+/// Treatment of pieces that rest.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum AtRest {
@@ -101,7 +100,7 @@ pub enum AtRest {
     Go,
 }
 
-/// How the world steps, what counts as an impact, and what becomes of fragments.
+/// Settings for stepping, impacts and fragments.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct WorldConfig {
@@ -122,16 +121,16 @@ pub struct WorldConfig {
     pub merge_distance: f32,
     /// A fragment gets one convex hull when hull volume / piece volume is at most this. Default 1.15.
     pub hull_volume_ratio: f32,
-    /// How finely the collider of a whole body follows it; that of a box is a box. Default: all the convex cells of the bake, 128 points each.
+    /// Detail of the collider of a whole body; that of a box is a box. Default: all the convex cells of the bake, 128 points each.
     pub whole_collider: ColliderDetail,
-    /// How finely the colliders follow fragments that one hull does not fit. Default: 12 parts of at most 48 points. What a heap of pieces
-    /// costs is mostly this. Measured in `frangible-lab bench shop`, Rapier's time per frame: every share of a cell with 128 points
+    /// Detail of the colliders of fragments that one hull does not fit. Default: 12 parts of at most 48 points. It is most of what a heap of pieces
+    /// costs. Measured in `frangible-lab bench shop`, Rapier's time per frame: every share of a cell with 128 points
     /// 97 ms, this 45 ms, 4 parts of 24 points with [`WorldConfig::hull_volume_ratio`] 3 13 ms.
     pub fragment_collider: ColliderDetail,
     /// Speed at which fragments of one parent part when they overlap, m/s; zero leaves overlaps alone.
     /// Default 0.002: along a chain of pieces the speeds add up, and must stay below what counts as rest.
     pub overlap_relaxation: f32,
-    /// How far ahead of a contact's normal the pressure of a rolling body acts, m: the torque of rolling resistance is
+    /// Distance ahead of a contact's normal at which the pressure of a rolling body acts, m: the torque of rolling resistance is
     /// this × normal force. Default 5e-4: rough stone, dust. Zero: things roll for ever.
     pub rolling_arm: f32,
     /// A body of which no point moves farther than this for 0.4 s while it touches something is at rest, m.
@@ -151,11 +150,11 @@ pub struct WorldConfig {
     /// Longest that a step may take in the mean of the last 32, s: while it takes longer, one in fifty pieces of debris goes in each, the oldest
     /// first. Default infinity. With it two runs are no longer alike, as they hang on the speed of the machine.
     pub step_time: f32,
-    /// What becomes of pieces that have rested for [`WorldConfig::rest_time`]: slept, or stayed within [`WorldConfig::rest_drift`] of their
+    /// Treatment of pieces that have rested for [`WorldConfig::rest_time`]: slept, or stayed within [`WorldConfig::rest_drift`] of their
     /// place, whatever the others of their heap do. Those that touch a body that can move and is no piece sleep on. Default
     /// [`AtRest::Sleep`].
     pub at_rest: AtRest,
-    /// How long a piece has to rest before [`WorldConfig::at_rest`] applies, s. Default 2.
+    /// Time that a piece has to rest before [`WorldConfig::at_rest`] applies, s. Default 2.
     pub rest_time: f32,
     /// A piece that goes loses its collider and [fades](crate::BreakableWorld::fading) in this time, s. Default zero: it is gone at once.
     pub fade_time: f32,
@@ -165,7 +164,7 @@ pub struct WorldConfig {
     pub resting_loads: bool,
     /// When a body gives way to its fragments. Default inside the step.
     pub breaking: Breaking,
-    /// Which fragments break again, if the world has a [model of how they vibrate](crate::BreakableWorld::set_piece_model).
+    /// Settings for fragments that break again, if the world has a [model of how they vibrate](crate::BreakableWorld::set_piece_model).
     pub pieces: PieceConfig,
     /// Also record the impacts that broke nothing, see [`crate::BreakableWorld::held`]. Default off.
     pub record_held: bool,

@@ -1,9 +1,9 @@
-//! How many loads were put to the fracture, and how cheaply most were refused.
+//! Counts of the loads put to the fracture, and of how cheaply most were refused.
 
 use frangible::Outcome;
 use frangible::internals::outcome::LookedAt;
 
-/// What became of the loads that a world put to the fracture. Each load is one question; a load that a repeated step brings
+/// Counts of the loads that a world put to the fracture, by outcome. Each load is one question; a load that a repeated step brings
 /// again unchanged is not asked again.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
@@ -42,7 +42,7 @@ impl LoadCounts {
     }
 }
 
-/// How closely an outcome was looked at; none where the body broke.
+/// Depth to which an outcome was looked at; none where the body broke.
 pub(crate) fn held(outcome: &Outcome) -> Option<LookedAt> {
     match outcome {
         Outcome::Broke(_) => None,

@@ -1,4 +1,4 @@
-//! What may go wrong in the world; each message says how to mend it.
+//! Errors of the world; each message says how to mend it.
 
 use frangible::InputError;
 use rapier3d::math::Vector;
@@ -16,7 +16,7 @@ pub enum WorldError {
     NotPositive {
         /// The quantity, with its unit.
         what: &'static str,
-        /// What was given.
+        /// The value given.
         value: f32,
     },
     /// A quantity that must be finite and not negative is not.
@@ -24,7 +24,7 @@ pub enum WorldError {
     Negative {
         /// The quantity, with its unit.
         what: &'static str,
-        /// What was given.
+        /// The value given.
         value: f32,
     },
     /// A crushing pressure of which contacts would last longer than they are followed, Pa.

@@ -1,4 +1,4 @@
-//! What happened in a step.
+//! Events of a step.
 
 use std::sync::Arc;
 
@@ -7,13 +7,13 @@ use frangible::{Asset, Contact, Fracture, ImpactReport};
 use rapier3d::dynamics::{ImpulseJointHandle, RigidBodyHandle};
 use rapier3d::math::{Pose, Vector};
 
-/// What broke a body.
+/// Cause of a break.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum BreakCause {
     /// It was hit, or hit something.
     Impact,
-    /// What it carried: resting contacts, and its own weight when it is held.
+    /// The load that it carried: resting contacts, and its own weight when it is held.
     Rest,
     /// [`BreakableWorld::blast`](crate::BreakableWorld::blast).
     Blast,
@@ -28,9 +28,9 @@ pub struct BreakEvent {
     pub step: u64,
     /// Handle of the body that broke; it is no longer in the world.
     pub parent: RigidBodyHandle,
-    /// What broke it.
+    /// Cause of the break.
     pub cause: BreakCause,
-    /// What the body was.
+    /// Asset of the body that broke.
     pub asset: Arc<Asset>,
     /// The new bodies, in the order of [`Fracture::fragments`]. Debris may be removed again later.
     pub fragments: Vec<RigidBodyHandle>,
@@ -42,7 +42,7 @@ pub struct BreakEvent {
     /// The contacts that broke it, body frame. Of a resting load: the pushes of one step, speed 0, friction within the
     /// normal. Empty for a blast and a scripted blow.
     pub contacts: Vec<Contact>,
-    /// What hit it, or lay on it: bodies, without those removed or broken in the same step.
+    /// Bodies that hit it, or lay on it, without those removed or broken in the same step.
     pub strikers: Vec<RigidBodyHandle>,
     /// Pose of the body when it broke, at the start of the step.
     pub pose: Pose,
@@ -77,7 +77,7 @@ pub struct HeldEvent {
     pub contacts: Vec<Contact>,
     /// Strength over the bound of the stress: how many times as hard the blow could have been, at least.
     pub margin: f64,
-    /// What the fracture found.
+    /// Report of the fracture.
     pub report: ImpactReport,
     /// Its cracks from now on, where new ones ran; the body has them already.
     pub state: Option<BodyState>,

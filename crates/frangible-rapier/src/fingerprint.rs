@@ -2,7 +2,7 @@
 
 use crate::world::BreakableWorld;
 
-/// Where the hash of no bytes begins, and its factor: FNV-1a of 64 bits.
+/// First value of the hash, and its factor: FNV-1a of 64 bits.
 const START: u64 = 0xcbf2_9ce4_8422_2325;
 const FACTOR: u64 = 0x0100_0000_01b3;
 

@@ -1,4 +1,4 @@
-//! Where the time of a step went. Wall clock: the only thing here that differs from run to run.
+//! Times of the parts of a step. Wall clock: the only thing here that differs from run to run.
 
 use std::ops::AddAssign;
 
@@ -20,7 +20,7 @@ pub struct StepTimings {
     pub fracture: f64,
     /// Shapes of fragments, and putting them in the place of the body.
     pub fragments: f64,
-    /// What bodies carry.
+    /// Loads of bodies at rest.
     pub loads: f64,
     /// Rolling, rest, the guard against tunnelling, bookkeeping.
     pub upkeep: f64,

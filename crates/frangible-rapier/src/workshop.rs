@@ -14,7 +14,7 @@ type Job = Box<dyn FnOnce() + Send>;
 /// Jobs by the step in which they are due, and by the order in which they came.
 type Jobs = BTreeMap<(u64, u64), Job>;
 
-/// How long a job takes.
+/// Length of a job.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Length {
     /// Milliseconds.
@@ -23,7 +23,7 @@ pub(crate) enum Length {
     Long,
 }
 
-/// What there is to do.
+/// Jobs that wait, and the number of threads at long ones.
 #[derive(Default)]
 struct Queue {
     short: Jobs,

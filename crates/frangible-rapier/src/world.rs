@@ -70,19 +70,19 @@ pub struct BreakableWorld {
     pub(crate) events: Vec<BreakEvent>,
     pub(crate) held: Vec<HeldEvent>,
     pub(crate) timings: StepTimings,
-    /// What steps take, in the mean of the last ones, s.
+    /// Mean time of the last steps, s.
     pub(crate) mean_step: f64,
     /// Blows that other threads judge, in the order in which they are due.
     pub(crate) cases: VecDeque<Case>,
     pub(crate) piece_model: Option<Arc<dyn PieceModel>>,
     pub(crate) workshop: Workshop,
-    /// Whether blows are judged by the fracture itself, whose quick bound then clears most of them.
+    /// True if blows are judged by the fracture itself, whose quick bound then clears most of them.
     pub(crate) clears_quickly: bool,
-    /// Whether loads are judged by the fracture's quick bound in the same way.
+    /// True if loads are judged by the fracture's quick bound in the same way.
     pub(crate) weighs_quickly: bool,
 }
 
-/// What a world knows of its bodies beside Rapier, between two steps: a clone of it and of Rapier's sets is a world put aside.
+/// Data of a world about its bodies beside Rapier's, between two steps: a clone of it and of Rapier's sets is a world put aside.
 #[derive(Clone, Default)]
 pub(crate) struct State {
     pub(crate) breakables: BTreeMap<Key, Body>,
@@ -240,19 +240,19 @@ impl BreakableWorld {
         self.state.refused_breaks
     }
 
-    /// What became of all impacts so far.
+    /// Counts of all impacts so far, by outcome.
     #[must_use]
     pub fn impact_counts(&self) -> LoadCounts {
         self.state.impact_counts
     }
 
-    /// What became of all resting loads so far.
+    /// Counts of all resting loads so far, by outcome.
     #[must_use]
     pub fn rest_counts(&self) -> LoadCounts {
         self.state.rest_counts
     }
 
-    /// Where the time of the last step went.
+    /// Times of the parts of the last step.
     #[must_use]
     pub fn timings(&self) -> &StepTimings {
         &self.timings
@@ -264,7 +264,7 @@ impl BreakableWorld {
         self.state.snapshots
     }
 
-    /// How often a step was undone and taken again with fragments.
+    /// Number of times that a step was undone and taken again with fragments.
     #[must_use]
     pub fn undone_steps(&self) -> u64 {
         self.state.undone_steps

@@ -1,4 +1,4 @@
-//! Whether a blow would break a body, asked of the world.
+//! Questions to the world: would a blow break a body?
 
 use crate::common::baked::{block, pane};
 use frangible::{Body, Contact, FractureConfig, Material, Striker};

@@ -1,4 +1,4 @@
-//! What the world tells of impacts and breaks, and what it hands to the fracture.
+//! Events of impacts and breaks, and the contacts that the world hands to the fracture.
 
 use crate::common::{at, body, box_asset, slicer, step_to_break, unbreakable, world};
 use frangible::glam::Vec3;

@@ -2,7 +2,7 @@
 
 use std::process::Command;
 
-/// What an example prints. Cargo builds examples beside the tests.
+/// Output of an example. Cargo builds examples beside the tests.
 fn output(name: &str) -> String {
     let test = std::env::current_exe().unwrap();
     let folder = test.ancestors().nth(2).unwrap().join("examples");

@@ -1,4 +1,4 @@
-//! What hits a pane goes on through it.
+//! A striker that hits a pane goes on through it.
 
 use crate::common::{at, body, box_asset, slicer, unbreakable, world};
 use frangible::glam::Vec3;

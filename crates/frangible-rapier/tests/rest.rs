@@ -1,4 +1,4 @@
-//! What rolls comes to rest, and what was pressed into the floor.
+//! Rolling bodies come to rest, and so do those that were pressed into the floor.
 
 use crate::common::{at, world};
 use frangible_rapier::rapier3d::dynamics::RigidBodyBuilder;

@@ -1,4 +1,4 @@
-//! What lies on what: nothing breaks from lying there, and a shelf breaks when it carries too much.
+//! Resting loads: nothing breaks from lying there, and a shelf breaks when it carries too much.
 
 use crate::common::baked::{block, pane, shelf};
 use crate::common::{at, body, box_asset, sliced, step_to_break, world};

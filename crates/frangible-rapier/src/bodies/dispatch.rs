@@ -1,4 +1,4 @@
-//! Which contacts of two shapes are found here and which by Parry.
+//! Dispatch of contact searches for two shapes, to this crate or to Parry.
 
 use rapier3d::geometry::{ContactData, ContactManifoldData};
 use rapier3d::math::{Pose, Real, Vector};

@@ -27,12 +27,12 @@ type Manifold = ContactManifold<ContactManifoldData, ContactData>;
 /// Bits of a corner's number that count corners of one part; the others count parts.
 const CORNER_BITS: u32 = 12;
 
-/// What the solver touches with.
+/// A corner of a shape at which the solver may touch the plane.
 #[derive(Clone, Copy)]
 struct Corner {
     /// Number of the corner, the same as long as the shape lives.
     id: PackedFeatureId,
-    /// In the shape's frame, m.
+    /// Position in the shape's frame, m.
     point: Vector,
     /// Height above the plane, m.
     height: f32,
@@ -40,7 +40,7 @@ struct Corner {
     worth: f32,
 }
 
-/// Whether a shape is a polyhedron, or a compound of nothing but polyhedra.
+/// Returns true if a shape is a polyhedron, or a compound of nothing but polyhedra.
 fn has_corners(shape: &dyn Shape) -> bool {
     match shape.as_compound() {
         Some(compound) => (compound.shapes().iter()).all(|(_, part)| is_polyhedron(&**part)),
@@ -175,7 +175,7 @@ pub(crate) fn touch(
     Ok(())
 }
 
-/// Whether a shape is convex and has flat faces.
+/// Returns true if a shape is convex and has flat faces.
 fn is_polyhedron(shape: &dyn Shape) -> bool {
     shape.as_convex_polyhedron().is_some() || shape.as_cuboid().is_some()
 }

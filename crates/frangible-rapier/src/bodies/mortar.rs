@@ -16,7 +16,7 @@ use crate::world::BreakableWorld;
 /// Marks the joints that are mortar: the upper half of their user data.
 const MARK: u128 = 0x6d6f_7274_6172_0001 << 64;
 
-/// Where two bodies are bonded, and how strongly.
+/// Bond between two bodies at a face: its place and strength.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mortar {
     /// Middle of the face, m, world.

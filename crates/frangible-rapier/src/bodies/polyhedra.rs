@@ -5,9 +5,9 @@
 //! pointed through the bodies, so that the solver pushed them apart, and a ball of 6 mm that touches a prism of as much is said to be up to
 //! 5 mm too near or too far in one case of five. The same search in units that suit the bodies fails in one of a thousand.
 //!
-//! Whether a normal is right can be told without a search: along it, the gap between the two bodies' support points is the
-//! distance that was found. Where it is not, which happens to bodies that touch within some micrometres, it is the best of that normal, the
-//! one before and those of the faces: the one along which the bodies are farthest apart.
+//! A normal can be checked without a search: along the right one, the gap between the two bodies' support points is the
+//! distance that was found. If it is wrong, which happens to bodies that touch within some micrometres, it is replaced by the best of that
+//! normal, the one before and those of the faces: the one along which the bodies are farthest apart.
 
 use rapier3d::geometry::{ContactData, ContactManifoldData};
 use rapier3d::math::{Pose, Real, Vector};
@@ -143,11 +143,11 @@ impl SupportMap for Scaled<'_> {
     }
 }
 
-/// What a search found.
+/// Result of a search.
 enum Found {
     /// The bodies are farther apart than contacts reach, along this normal.
     Apart(Vector),
-    /// The normal between the bodies, how far apart they are along it, and their closest points, or the deepest where they overlap, where
+    /// The normal between the bodies, their distance along it, and their closest points, or the deepest where they overlap, where
     /// these are known.
     Close {
         normal: Vector,
@@ -170,7 +170,7 @@ struct Pair<'a> {
 }
 
 impl Pair<'_> {
-    /// How far apart the bodies are along a unit normal from the first to the second, m; negative where they overlap.
+    /// Distance of the bodies along a unit normal from the first to the second, m; negative where they overlap.
     fn gap(&self, normal: Vector) -> Real {
         let near = self.a.support.local_support_point(normal);
         (*self.pos12 * self.farthest_of_second(-normal) - near).dot(normal)

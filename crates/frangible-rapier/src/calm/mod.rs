@@ -1,4 +1,4 @@
-//! What keeps a world quiet: sleep, rolling resistance, and no body through a floor.
+//! Means that keep a world quiet: sleep, rolling resistance, and no body through a floor.
 
 pub(crate) mod guard;
 pub(crate) mod motions;

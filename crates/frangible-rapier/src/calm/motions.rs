@@ -1,4 +1,4 @@
-//! How bodies moved before the step: what it takes to tell a blow from a touch without a copy of the world.
+//! Motions of bodies before the step, by which a blow is told from a touch without a copy of the world.
 
 use std::collections::BTreeMap;
 
@@ -31,7 +31,7 @@ struct Motion {
     pose: Pose,
     linvel: Vector,
     angvel: Vector,
-    /// No point of the body was faster than this against its centre of mass, m/s.
+    /// Upper bound of the speed of its points relative to the centre of mass, m/s.
     spin: f32,
 }
 
@@ -65,7 +65,7 @@ impl Motions {
         motion.as_ref().filter(|m| m.handle == handle)
     }
 
-    /// Whether two bodies may have come nearer at `speed`, m/s; no body counts as a still one.
+    /// Returns true if two bodies may have come nearer at `speed`, m/s; no body counts as a still one.
     pub(crate) fn may_meet_at(
         &self,
         speed: f32,

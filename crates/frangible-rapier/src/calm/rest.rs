@@ -1,4 +1,4 @@
-//! What stays where it is, rests.
+//! Rest: a body that stays in its place may sleep.
 //!
 //! Rapier lets a body sleep when it moved less than a threshold in **every** step of half a second. A jagged piece
 //! stands on corners that take turns, so single steps exceed any threshold while the piece goes nowhere, and one such
@@ -13,7 +13,7 @@ use rapier3d::pipeline::PhysicsWorld;
 
 use crate::world::{Key, key};
 
-/// How long a body has to stay in its place, s.
+/// Time that a body has to stay in its place before it may sleep, s.
 const REST_TIME: f32 = 0.4;
 
 /// Sleep threshold of a body that stays in its place, length units per second: more than corners taking turns.
@@ -32,19 +32,19 @@ struct Place {
     mean: Vector,
 }
 
-/// Where bodies have been of late.
+/// Places that bodies have kept of late.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Places {
     places: BTreeMap<Key, Place>,
 }
 
 impl Places {
-    /// How long a body has touched something and stayed in its place, s, up to now or until it fell asleep.
+    /// Time for which a body has touched something and stayed in its place, s, up to now or until it fell asleep.
     pub(crate) fn stayed(&self, body: RigidBodyHandle) -> f32 {
         self.places.get(&key(body)).map_or(0.0, |place| place.since)
     }
 
-    /// Mean velocity over the last two steps, m/s: what stands on corners that take turns moves to and fro, and its mean is small.
+    /// Mean velocity over the last two steps, m/s: a body that stands on corners that take turns moves to and fro, and its mean is small.
     pub(crate) fn mean_velocity(&self, body: RigidBodyHandle) -> Vector {
         (self.places.get(&key(body))).map_or(Vector::ZERO, |place| place.mean)
     }

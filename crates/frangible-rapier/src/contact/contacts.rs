@@ -31,7 +31,7 @@ pub(crate) struct Impact {
     pub(crate) strikers: Vec<RigidBodyHandle>,
 }
 
-/// What is known of surfaces.
+/// Surfaces of bodies, and the breakable ones.
 pub(crate) struct Surfaces<'a> {
     pub(crate) bodies: &'a BTreeMap<Key, SurfaceProperties>,
     pub(crate) breakables: &'a BTreeMap<Key, Body>,
@@ -143,7 +143,7 @@ pub(crate) fn impact_on(
     impact
 }
 
-/// Where, how and by what a body was pushed in the step just taken, or would have been had no other point come before; `body` says where
+/// Contact points at which a body was pushed in the step just taken, or would have been had no other point come before; `body` says where
 /// its frame was.
 pub(crate) fn points_on(
     handle: RigidBodyHandle,

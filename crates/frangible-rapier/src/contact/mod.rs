@@ -1,4 +1,4 @@
-//! What Rapier says of contacts, as an impact that the fracture understands.
+//! Contacts of Rapier, turned into an impact that the fracture understands.
 
 pub(crate) mod contacts;
 pub(crate) mod friction;

@@ -1,4 +1,4 @@
-//! What a contact needs to know of a body's surface.
+//! Properties of a body's surface that matter to a contact.
 
 use frangible::Material;
 use frangible::internals::Preset;

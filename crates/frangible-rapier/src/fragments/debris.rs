@@ -4,7 +4,7 @@ use rapier3d::dynamics::RigidBodyHandle;
 
 use crate::world::{BreakableWorld, key};
 
-/// How long dust is there, s: it has fallen 5 m by then.
+/// Lifetime of dust, s: it has fallen 5 m by then.
 const DUST_TIME: f64 = 1.0;
 
 impl BreakableWorld {

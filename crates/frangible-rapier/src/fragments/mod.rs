@@ -1,4 +1,4 @@
-//! What becomes of a body that broke: fragments in its place, their joints, those that break again, and those that rest.
+//! Fragments in the place of a body that broke: their joints, those that break again, and those that rest.
 
 pub(crate) mod debris;
 pub(crate) mod joints;

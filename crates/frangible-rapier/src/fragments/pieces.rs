@@ -29,14 +29,14 @@ pub(crate) struct Expected {
     body: Arc<Mutex<Made>>,
 }
 
-/// Which of a model's two ways.
+/// One of a model's two methods.
 #[derive(Clone, Copy)]
 enum Kind {
     AtOnce,
     Later,
 }
 
-/// What comes of it: asked for once, and known to all that share it from then on.
+/// Result of making a body: asked for once, and known to all that share it from then on.
 enum Made {
     Soon(Receiver<Option<Body>>),
     Known(Option<Box<Body>>),

@@ -62,7 +62,7 @@ pub(crate) fn is_debris(fragment: &Fragment, config: &WorldConfig) -> bool {
     fragment.mass.mass < f64::from(config.debris_mass.max(config.dust_mass))
 }
 
-/// What stands in the place of a body that broke.
+/// Fragments that have taken the place of a body that broke.
 pub(crate) struct Replacement {
     pub(crate) fragments: Vec<RigidBodyHandle>,
     /// Joints of the body that no fragment holds; they are no longer in the world.

@@ -53,7 +53,7 @@ impl BreakableWorld {
         }
     }
 
-    /// Whether the step that has just been done crosses a multiple of [`MERGE_TIME`].
+    /// Returns true if the step that has just been done crosses a multiple of [`MERGE_TIME`].
     fn is_time_to_merge(&self) -> bool {
         let turn = |time: f64| (time / MERGE_TIME).floor();
         turn(self.time()) != turn(self.time() - f64::from(self.config.dt))
@@ -82,7 +82,7 @@ impl BreakableWorld {
         }
     }
 
-    /// Whether a piece has been asleep, or in its place, for long.
+    /// Returns true if a piece has been asleep, or in its place, for long.
     fn lies_still(&mut self, handle: RigidBodyHandle) -> bool {
         let now = self.time();
         let Some(body) = self.physics.bodies.get(handle).filter(|b| b.is_dynamic()) else {
@@ -102,15 +102,15 @@ impl BreakableWorld {
             && (self.config.at_rest != AtRest::Merge || self.can_merge(handle))
     }
 
-    /// Whether a piece moves as one whose support has gone does after a step: it has not left its place yet. What rocks where it lies does
-    /// not fall.
+    /// Returns true if a piece moves as one whose support has gone does after a step, before it has left its place. A piece that rocks where it
+    /// lies does not fall.
     fn falls(&self, piece: RigidBodyHandle) -> bool {
         let a_step = self.physics.gravity.length() * self.config.dt;
         self.state.places.mean_velocity(piece).length() > 0.25 * a_step
     }
 
-    /// Whether a piece lies on, or leans against, what may leave it in the air: a body that can move and does not rest itself, or one that
-    /// is held and can break. What only lies on top of it does not count.
+    /// Returns true if a piece lies on, or leans against, a body that may leave it in the air: one that can move and does not rest itself, or one
+    /// that is held and can break. A body that only lies on top of it does not count.
     fn is_carried_by_what_may_go(&self, piece: RigidBodyHandle, resting: &BTreeSet<Key>) -> bool {
         let physics = &self.physics;
         let up = -physics.gravity.normalize_or_zero();

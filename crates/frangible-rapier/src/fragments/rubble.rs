@@ -33,7 +33,7 @@ pub(crate) struct Rubble {
     pub(crate) parts: Vec<RigidBodyHandle>,
 }
 
-/// Where a merged piece lies.
+/// Place of a merged piece.
 #[derive(Clone, Copy, Debug)]
 struct Place {
     /// Number of the body that it comes from, whose rubble it is a part of.
@@ -45,11 +45,11 @@ struct Place {
 /// All rubble of a world.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Rubbles {
-    /// What is merged, by the number of the body that it is of.
+    /// Rubble of each body, by the number of the body.
     pub(crate) all: BTreeMap<u64, Rubble>,
     /// The place of each merged piece.
     places: BTreeMap<Key, Place>,
-    /// Rubble whose compound no longer is what its pieces are.
+    /// Rubble whose compound no longer matches its pieces.
     stale: BTreeSet<u64>,
 }
 
@@ -152,7 +152,7 @@ impl BreakableWorld {
         self.rebuild_rubble();
     }
 
-    /// Whether a piece can be a part of a rubble.
+    /// Returns true if a piece can be a part of a rubble.
     pub(super) fn can_merge(&self, piece: RigidBodyHandle) -> bool {
         self.siblings.origin(piece).is_some() && self.skin_to_merge(piece).is_some()
     }

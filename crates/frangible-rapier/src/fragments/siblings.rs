@@ -26,15 +26,15 @@ struct Birth {
 /// Parent of a rubble, whose parts are siblings of all pieces of its origin.
 const RUBBLE: u64 = 0;
 
-/// Who is whose sibling.
+/// Parents and births of fragments, by which siblings are known.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Siblings {
     /// Number of the current step.
     pub(crate) step: u64,
-    /// How much of an overlap siblings part by in a step, m.
+    /// Largest overlap by which siblings part in a step, m.
     pub(crate) relaxation: f32,
     parents: u64,
-    /// When each body was born, by its index: asked for every pair of fragments in every step.
+    /// Birth of each body, by its index: asked for every pair of fragments in every step.
     births: Vec<Option<Birth>>,
 }
 

@@ -1,4 +1,4 @@
-//! What blows that were integrated say of the impulses between bodies that met.
+//! Impulses between bodies that met, from blows that were integrated.
 
 use frangible::ImpactReport;
 use frangible::glam::{DVec3, Vec3};
@@ -11,9 +11,9 @@ use crate::contact::contacts::Impact;
 /// One contact of a blow; world axes and places at the start of the step.
 #[derive(Clone, Debug)]
 pub(crate) struct Touch {
-    /// Where, m.
+    /// Position of the contact, m.
     pub(crate) point: DVec3,
-    /// Where in the frame of the body that was asked, m.
+    /// Its position in the frame of the body that was asked, m.
     pub(crate) local: Vec3,
     /// Unit direction of the impulse on the body that was asked.
     pub(crate) normal: DVec3,
@@ -34,7 +34,7 @@ pub(crate) struct Meeting {
     /// None for a collider without a body.
     pub(crate) partner: Option<RigidBodyHandle>,
     pub(crate) touches: Vec<Touch>,
-    /// How much of this answer counts: half where both bodies were asked.
+    /// Weight of this answer: half where both bodies were asked.
     pub(crate) share: f64,
 }
 
@@ -82,7 +82,7 @@ pub(crate) fn meetings(
 }
 
 impl Meeting {
-    /// Whether the other one was asked about the same.
+    /// Returns true if the other meeting is of the same two bodies, asked the other way round.
     fn is_mirrored_by(&self, other: &Self) -> bool {
         other.partner == Some(self.body) && self.partner == Some(other.body)
     }

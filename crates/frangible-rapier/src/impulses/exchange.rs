@@ -94,7 +94,7 @@ impl BreakableWorld {
         take_energy(bodies, &pair[..1], &pair[1..], gain);
     }
 
-    /// Whether these bodies touched nothing but each other, and nothing is tied to them.
+    /// Returns true if these bodies touched nothing but each other, and nothing is tied to them.
     fn are_alone(&self, pair: &[RigidBodyHandle]) -> bool {
         let physics = &self.physics;
         let parent = |c| physics.colliders.get(c).and_then(|c| c.parent());
@@ -195,7 +195,7 @@ impl BreakableWorld {
         lost
     }
 
-    /// Whether a blow is [local](is_local) to few of these pieces, which come in the order of their distance from it.
+    /// Returns true if a blow is [local](is_local) to few of these pieces, which come in the order of their distance from it.
     fn is_local(&self, pieces: &[RigidBodyHandle], blow: &Push<'_>) -> bool {
         let set = &self.physics.bodies;
         let (pieces, striker) = (Plain::of(set, pieces), Plain::of(set, &blow.striker));
@@ -226,7 +226,7 @@ impl BreakableWorld {
         taken
     }
 
-    /// What a striker is now: itself, or its pieces; nothing where it is gone.
+    /// Bodies that a striker is now: itself, or its pieces; nothing where it is gone.
     pub(crate) fn what_became_of(
         &self,
         striker: Option<RigidBodyHandle>,
@@ -348,7 +348,7 @@ impl Pair {
         touch.normal.dot(speed(0) - speed(1))
     }
 
-    /// What the kicks add to that.
+    /// Increase of that speed by the kicks, m/s.
     fn gain(&self, touch: &Touch, kicks: [Kick; 2]) -> f64 {
         let speed = |k: usize| {
             let (linear, angular) = self.wholes[k].answer(kicks[k]);

@@ -35,7 +35,7 @@ pub(crate) struct Broken {
     pub(crate) released: Vec<ImpulseJointHandle>,
     /// Its contacts, where the blow was integrated.
     pub(crate) blow: Vec<Meeting>,
-    /// What the motion has lost by that blow, J: the vibration's, from which the cracks are paid first.
+    /// Energy that the motion has lost by that blow, J: the vibration's, from which the cracks are paid first.
     pub(crate) lost: f64,
 }
 
@@ -47,7 +47,7 @@ struct Group {
     cracks: f64,
     /// Kinetic energy before the step, and the work of gravity in it, J.
     brought: [f64; 2],
-    /// What tolls still have to take from its motion so that no energy is made, J.
+    /// Energy that tolls still have to take from its motion so that none is made, J.
     shortage: f64,
 }
 

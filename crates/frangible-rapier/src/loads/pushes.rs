@@ -220,7 +220,7 @@ impl BreakableWorld {
         )
     }
 
-    /// What a push did to a breakable body: it or its fragments get the momentum.
+    /// Applies the outcome of a push to a breakable body: it or its fragments get the momentum.
     fn suffer(
         &mut self,
         handle: RigidBodyHandle,

@@ -1,13 +1,13 @@
-//! What lies on what: resting contacts, asked at every step `[G12 §7.3.3]`.
+//! Loads of bodies that lie on each other: resting contacts, asked at every step `[G12 §7.3.3]`.
 //!
 //! After a step each breakable body that is awake, or held, is put to [`frangible::internals::rest()`] with the forces of its
 //! resting contacts: impulse / time step, friction included. Contacts that approach faster than the impact speed are not
 //! among them. A single step's impulses are noisy (a thing put down at 0.1 m/s presses for one step of 1/240 s with three
 //! times its weight), so a load counts as the smallest of the last [`STEADY`] steps: a body breaks only when each of
 //! them would have broken it. The last of these steps begins with a copy of the world and is taken again with fragments,
-//! as after an impact. Where steps are shorter than [`INTERVAL`], only one in each interval is looked at.
+//! as after an impact. If steps are shorter than [`INTERVAL`], only one in each interval is looked at.
 //!
-//! What pushes an overlap apart is no load: the engine pushes as hard as its iterations make it, and between things that cannot give way
+//! A push that parts an overlap is no load: the engine pushes as hard as its iterations make it, and between things that cannot give way
 //! harder from step to step. Things that lie on each other overlap by next to nothing, so that a body that is pushed at a place deeper
 //! than [`OVERLAP`] is taken to carry nothing until the two have parted.
 
@@ -37,7 +37,7 @@ const INTERVAL: f32 = 1.0 / 240.0;
 /// Looks for which a body that held after a full computation is not asked again: that one costs milliseconds.
 const PAUSE: u32 = 8;
 
-/// How deep another body may be in one that carries something, as a share of the engine's tolerance of lengths: 0.1 mm by default. A stack
+/// Depth of another body in one that carries something, at most, as a share of the engine's tolerance of lengths: 0.1 mm by default. A stack
 /// that fell by half a millimetre overlaps by 0.02 mm at most.
 const OVERLAP: f32 = 0.2;
 
@@ -48,7 +48,7 @@ const MOST_FORCES: usize = 16;
 /// A body that carries at most so much less than it could, by a bound that costs next to nothing, is not looked at closer.
 const EASE: f64 = 1.5;
 
-/// What a body carries.
+/// Load of a body: forces of its resting contacts, and gravity.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Load {
     pub(crate) forces: Vec<Force>,
@@ -110,7 +110,7 @@ fn most_force_on(rigid: &RigidBody, physics: &PhysicsWorld) -> f32 {
     impulse / physics.integration_parameters.dt
 }
 
-/// Whether a body is asked at all: a fixed one without supports has no modes for its hold.
+/// Returns true if a body is asked at all: a fixed one without supports has no modes for its hold.
 fn carries(body: &Body, rigid: &RigidBody) -> bool {
     rigid.is_enabled() && (rigid.is_dynamic() || rigid.is_fixed() && body.asset().is_supported())
 }
@@ -162,9 +162,9 @@ fn load_on(
 }
 
 impl BreakableWorld {
-    /// How many times as much a body could carry, at least, of what it carries now: strength over the bound of the
+    /// Lower bound of a body's safety factor under its present load: strength over the bound of the
     /// stress that its resting contacts and, when it is held, its own weight cause. Infinite without load; `None` for
-    /// what is not breakable or was never asked ([`crate::WorldConfig::resting_loads`] off, or not one step yet).
+    /// a body that is not breakable or was never asked ([`crate::WorldConfig::resting_loads`] off, or not one step yet).
     #[must_use]
     pub fn rest_margin(&self, handle: RigidBodyHandle) -> Option<f64> {
         self.state.burdens.get(&key(handle)).map(|b| b.margin)
@@ -184,7 +184,7 @@ impl BreakableWorld {
         }
     }
 
-    /// Whether loads are looked at after the coming step.
+    /// Returns true if loads are looked at after the coming step.
     pub(crate) fn weighs_now(&self) -> bool {
         let stride = (INTERVAL / self.physics.integration_parameters.dt).round();
         self.config.resting_loads && self.state.steps.is_multiple_of((stride as u64).max(1))
@@ -200,7 +200,7 @@ impl BreakableWorld {
         over.map(|(&(i, g), _)| RigidBodyHandle::from_raw_parts(i, g))
     }
 
-    /// What an overloaded body's load of the step just taken does to it; `None` when it is not overloaded.
+    /// Outcome of an overloaded body's load in the step just taken; `None` when it is not overloaded.
     pub(crate) fn breaking_load(
         &self,
         handle: RigidBodyHandle,

@@ -53,7 +53,7 @@ impl BreakableWorld {
         self.timings.rigid += watch.lap();
     }
 
-    /// Where the bodies that the guard looks after are now.
+    /// Present centres of the bodies that the guard looks after.
     pub(super) fn guarded_centres(&self) -> Centres {
         let fragments = self.siblings.fragments();
         let plain = fragments.filter(|&h| self.breakable(h).is_none());

@@ -1,4 +1,4 @@
-//! What the fracture says of a body, and what follows from it.
+//! Answers of the fracture, and what follows from them.
 //!
 //! An impact or a load is a question to the fracture, and comes back as an [`Answer`]: the body held, perhaps with new cracks, or it
 //! broke into these pieces. Whichever way a world breaks its bodies, the answer is counted, a break needs room for its pieces, and
@@ -21,7 +21,7 @@ use crate::fragments::replace::Parts;
 use crate::impulses::blows::{Meeting, meetings};
 use crate::world::{BreakableWorld, key};
 
-/// What an impact does to a body.
+/// Effect of an impact on a body.
 #[expect(clippy::large_enum_variant, reason = "one per impact, soon gone")]
 pub(crate) enum Verdict {
     /// It stays whole.
@@ -45,7 +45,7 @@ impl Verdict {
         }
     }
 
-    /// How closely the load was looked at; none where the body broke.
+    /// Depth to which the load was looked at; none where the body broke.
     fn held(&self) -> Option<LookedAt> {
         match self {
             Self::Held(outcome) => held(outcome),
@@ -73,7 +73,7 @@ impl BreakableWorld {
         counts.count(answer.impact.contacts.len(), verdict.held());
     }
 
-    /// Whether there is room for a body's fragments besides those `taken` already in this step.
+    /// Returns true if there is room for a body's fragments besides those `taken` already in this step.
     pub(crate) fn has_room(
         &mut self,
         fracture: &Fracture,
@@ -96,7 +96,7 @@ impl BreakableWorld {
         fits
     }
 
-    /// What there is to tell of a body that held; none where it broke.
+    /// Event of a body that held; none where it broke.
     pub(super) fn held_event(
         &self,
         body: RigidBodyHandle,
@@ -134,7 +134,7 @@ impl BreakableWorld {
         Ok(())
     }
 
-    /// What a blow that was integrated says of the impulses between a body and its strikers.
+    /// Impulses between a body and its strikers, from a blow that was integrated.
     pub(super) fn meetings(
         &self,
         handle: RigidBodyHandle,

@@ -1,4 +1,4 @@
-//! Which breakable bodies may be hit in the coming step: only they make a copy of the world worth its cost.
+//! Search for the breakable bodies that may be hit in the coming step: only they make a copy of the world worth its cost.
 //!
 //! A contact approaches faster than the threshold only if one of its two bodies has a point faster than half
 //! of it. So: find the fast bodies (one bound per body), then the breakables whose swept bounds meet those of
@@ -72,12 +72,12 @@ fn candidates(
         .collect()
 }
 
-/// Whether the next step moves a body.
+/// Returns true if the next step moves a body.
 pub(crate) fn moves(body: &RigidBody) -> bool {
     body.is_dynamic_or_kinematic() && body.is_enabled() && !body.is_sleeping()
 }
 
-/// Whether a body has a point that may be so fast, m/s.
+/// Returns true if a body has a point that may be so fast, m/s.
 pub(crate) fn is_fast(body: &RigidBody, speed: f32) -> bool {
     let points =
         body.linvel().length() + body.angvel().length() * body.mass_properties().max_extent();

@@ -43,8 +43,8 @@ impl BreakableWorld {
         Ok((breakable(&self.state.breakables, handle)?, rigid))
     }
 
-    /// Whether a blow would break a body into pieces, all in world coordinates: what strikes it at `point`, m, flies `toward` a direction of any
-    /// length at `speed`, m/s, against the body. Nothing in the world changes. A game asks it before an arrow is drawn, or to show
+    /// Returns true if a blow would break a body into pieces, all in world coordinates: the striker flies `toward` a direction of any length at
+    /// `speed`, m/s, against the body's `point`, m. Nothing in the world changes. A game asks it before an arrow is drawn, or to show
     /// where a wall would give way; a blow that is far too weak costs microseconds, one that breaks as much as the break.
     ///
     /// # Errors

@@ -21,7 +21,7 @@ use crate::stepping::answer::{Answer, Verdict};
 use crate::workshop::Length;
 use crate::world::{BreakFn, BreakableWorld, Key, key};
 
-/// What it takes to judge, apart from the world.
+/// Data needed to judge, apart from the world.
 struct Judge {
     function: Arc<BreakFn>,
     config: WorldConfig,
@@ -44,7 +44,7 @@ pub(crate) struct Case {
     verdict: Mutex<Receiver<Result<Verdict, WorldError>>>,
 }
 
-/// What has to be done for a verdict, once, by whoever comes first.
+/// Work for a verdict, done once by whoever comes first.
 struct Work {
     judge: Judge,
     body: Body,
@@ -68,12 +68,12 @@ impl Case {
         self.work.do_unless_taken();
     }
 
-    /// Whether the body is no longer cracked as it was when the blow was put to the fracture: its verdict would take back what came since.
+    /// Returns true if the body is no longer cracked as it was when the blow was put to the fracture: its verdict would take back what came since.
     pub(super) fn is_outdated(&self, now: &Body) -> bool {
         self.work.body.state() != now.state()
     }
 
-    /// What was asked.
+    /// The question that was asked.
     pub(super) fn question(self) -> (RigidBodyHandle, Impact) {
         (self.body, self.impact)
     }
@@ -103,7 +103,7 @@ impl BreakableWorld {
         impact_on(handle, &self.physics, before, &surfaces, &self.config)
     }
 
-    /// What impacts do to bodies: one answer per question, in their order. A body that is not breakable is an error.
+    /// Judges impacts on bodies: one answer per question, in their order. A body that is not breakable is an error.
     pub(super) fn judge(&self, questions: Vec<(RigidBodyHandle, Impact)>) -> Vec<Answer> {
         if questions.is_empty() {
             return Vec::new();
@@ -121,7 +121,7 @@ impl BreakableWorld {
         questions.into_par_iter().map(answer).collect()
     }
 
-    /// What an overloaded body's load of the step just taken does to it; none where the body is not overloaded.
+    /// Judges an overloaded body's load of the step just taken; none where the body is not overloaded.
     pub(super) fn judge_load(
         &self,
         handle: RigidBodyHandle,

@@ -32,7 +32,7 @@ pub(crate) fn baked(name: &str) -> Arc<Asset> {
     Arc::new(bake(&spec, &mut |_| {}).unwrap().0)
 }
 
-/// What became of twenty of these bodies that fell on stone stairs and tumbled down them.
+/// Outcome of letting twenty of these bodies fall on stone stairs and tumble down them.
 pub(crate) struct Tumble {
     pub(crate) impacts: LoadCounts,
     pub(crate) rests: LoadCounts,

@@ -29,7 +29,7 @@ fn prism(random: &mut impl FnMut() -> Real) -> SharedShape {
     SharedShape::convex_hull(&points).expect("a prism has a volume")
 }
 
-/// How far apart two bodies are along the axis along which that is most, of the normals of faces and across pairs of edges, m.
+/// Largest distance of two bodies along an axis, of the normals of faces and across pairs of edges, m.
 fn apart(pair: &Pair) -> Real {
     let edges = |body: Solid| match body.shape.as_convex_polyhedron() {
         Some(hull) => (hull.edges().iter())
@@ -138,8 +138,8 @@ fn bodies_of_any_size_are_searched_alike() {
     assert_eq!(failed, 0);
 }
 
-/// How far a shape's points without its radius are from a prism, by a search that has no tolerance: the farthest over many directions, the best of
-/// which is improved by ever smaller turns, m.
+/// Distance of a shape's points, without its radius, from a prism, m, by a search that has no tolerance: the farthest over many directions, the
+/// best of which is improved by ever smaller turns.
 fn distance(pair: &Pair, first: Vector) -> Real {
     let mut best = (first, pair.gap(first));
     let mut random = numbers(5);

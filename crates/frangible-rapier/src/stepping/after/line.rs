@@ -85,7 +85,7 @@ impl BreakableWorld {
         turn
     }
 
-    /// What it takes to put an impact to the fracture, tetrahedra.
+    /// Work of putting an impact to the fracture, tetrahedra.
     pub(super) fn work(&self, body: &Body, impact: &Impact) -> usize {
         let config = &self.config.fracture;
         if self.clears_quickly && is_harmless(body, &impact.contacts, config) {

@@ -1,6 +1,6 @@
 //! Blows whose turn it is are put to the fracture: at once, or elsewhere while the world goes on.
 //!
-//! Where the verdict comes in the step of the blow, the blow's impulse takes the place of the engine's (`exchange.rs`). A body that waited,
+//! If the verdict comes in the step of the blow, the blow's impulse takes the place of the engine's (`exchange.rs`). A body that waited,
 //! or was judged elsewhere, keeps what the engine gave it, since by then the bodies are elsewhere.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -54,7 +54,7 @@ impl BreakableWorld {
         done
     }
 
-    /// What blows of the step just taken say of the impulses between bodies: those that held give it at once, those of bodies
+    /// Impulses between bodies from the blows of the step just taken: those that held give them at once, those of bodies
     /// that break are returned. A verdict that comes later finds the bodies elsewhere: there the engine's blow stands.
     fn fresh_blows(
         &mut self,

@@ -1,4 +1,4 @@
-//! What is asked of the fracture in a step that may yet be undone.
+//! Questions to the fracture in a step that may yet be undone.
 //!
 //! A step is taken up to five times, and each time the bodies in it are hit anew. A blow that comes again exactly as it was is not put to
 //! the fracture again: it is known to hold. What a body carries is asked only where no new blow is, and only of bodies that were close
@@ -17,7 +17,7 @@ use crate::stepping::answer::{Answer, Verdict};
 use crate::timings::Watch;
 use crate::world::{BreakableWorld, Key, key};
 
-/// What was asked of the fracture in this step.
+/// Answers of the fracture in this step.
 #[derive(Default)]
 pub(super) struct Asked {
     pub(super) broken: Vec<Broken>,
@@ -27,12 +27,12 @@ pub(super) struct Asked {
     error: Option<WorldError>,
 }
 
-/// What there is to ask after a step.
+/// Questions to ask after a step.
 #[derive(Default)]
 struct Questions {
-    /// To be put to the fracture.
+    /// Blows to be put to the fracture.
     blows: Vec<(RigidBodyHandle, Impact)>,
-    /// What overloads do.
+    /// Answers to overloads.
     loads: Vec<Answer>,
     /// Bodies whose blow is known to hold.
     known: Vec<RigidBodyHandle>,
