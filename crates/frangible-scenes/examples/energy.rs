@@ -106,7 +106,7 @@ fn cause(b: &BreakRecord) -> &'static str {
     }
 }
 
-/// What the table says of a break, or of several together.
+/// Row of the table for a break, or for several together.
 #[derive(Default)]
 struct Row {
     pieces: usize,

@@ -11,7 +11,7 @@ use frangible_recording::Recording;
 use frangible_scenes::{BreakRecord, Run, SCENE_NAMES, bake, play, scene};
 use twox_hash::XxHash64;
 
-/// How long scenes are played, s: by then every body that breaks has broken once.
+/// Longest time for which scenes are played, s: by then every body that breaks has broken once.
 const LONGEST: f64 = 1.0;
 
 fn main() -> Result<(), Box<dyn Error>> {

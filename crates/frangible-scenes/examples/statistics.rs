@@ -21,7 +21,7 @@ use std::time::Instant;
 use frangible::{Outcome, impact};
 use frangible_scenes::{bake, breakable, first_break, read_scene, scene};
 
-/// What is compared of each break, in the order of the columns.
+/// Figures of each break that are compared, in the order of the columns.
 const COLUMNS: [&str; 8] = [
     "pieces",
     "crack area, m²",

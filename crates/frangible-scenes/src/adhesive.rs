@@ -98,7 +98,7 @@ fn area([a, b, c]: [Vec3; 3]) -> Vec3 {
     0.5 * (b - a).cross(c - a)
 }
 
-/// Where the first body's surface faces the second one's, in squares of this side.
+/// Parts of the first body's surface that face the second one's, in squares of this side.
 fn patches([(one, asset), (two, other)]: [(&Placed<'_>, &Asset); 2], side: f32) -> Vec<Patch> {
     let Ok(solid) = MeshSolid::new(&surface(other)) else {
         return Vec::new();

@@ -1,19 +1,19 @@
-//! How materials look: outside and crack faces.
+//! Appearance of materials: outside and crack faces.
 
 use frangible::internals::asset::RenderMaterial;
 use frangible_recording::{Grain, SurfaceMaterial};
 
-/// How the parts of a body look.
+/// Appearance of the parts of a body.
 pub(crate) struct Appearance {
     pub(crate) outside: SurfaceMaterial,
     pub(crate) crack_face: SurfaceMaterial,
     /// A crack that parts nothing, seen through a clear body.
     pub(crate) crack: SurfaceMaterial,
-    /// Where such a crack comes to the surface.
+    /// The line at which such a crack comes to the surface.
     pub(crate) crack_line: SurfaceMaterial,
 }
 
-/// How a body of a material looks.
+/// Appearance of a body of a material.
 pub(crate) fn appearance(material: &str) -> Appearance {
     let plain = |part: &str, base_color: [f32; 4], roughness: f32| SurfaceMaterial {
         name: format!("{material} {part}"),
@@ -127,7 +127,7 @@ pub(crate) fn appearance(material: &str) -> Appearance {
     }
 }
 
-/// How far light goes through a clear body until it has the body's colour, m: a good deal farther than a wall is thick, so that panes are
+/// Distance that light goes through a clear body until it has the body's colour, m: a good deal farther than a wall is thick, so that panes are
 /// clear and their edges, along which light runs, are not.
 const COLOR_DEPTH: f32 = 0.04;
 

@@ -14,16 +14,16 @@ use crate::source::BodySource;
 pub struct BodySpec {
     /// Name, also of its nodes in the animation.
     pub name: String,
-    /// Where its geometry comes from.
+    /// Source of its geometry.
     pub source: BodySource,
-    /// What it is made of. A [`BodySource::Asset`] brings its own material, and this one is not looked at: see
+    /// Its material. A [`BodySource::Asset`] brings its own, and this one is not looked at: see
     /// [`BodySpec::rescale`].
     pub material: Material,
     /// Number of vibration modes that are kept; a [`BodySource::Asset`] brings its own.
     pub modes: usize,
-    /// How many of them a blow follows through time; without it the bake's own choice.
+    /// Number of them that a blow follows through time; without it the bake's own choice.
     pub followed: Option<usize>,
-    /// Where it starts.
+    /// Position at the start.
     pub place: Place,
     /// Orientation at the start.
     pub rotation: Quat,
@@ -34,10 +34,10 @@ pub struct BodySpec {
     /// Tetrahedra of the fracture mesh of a [`BodySource::Shape`], about; without it the bake's default. Other sources
     /// name their own.
     pub resolution: Option<usize>,
-    /// Where it is held, m, in the frame of its shape: what these hold stays where it is, also after the break. Part of the bake, so that a
+    /// Supports, m, in the frame of its shape: what these hold stays where it is, also after the break. Part of the bake, so that a
     /// [`BodySource::Asset`] brings its own.
     pub supports: Vec<Support>,
-    /// Where it is weaker than its material, or stronger; one over the other. m from its centre of mass, along the axes of
+    /// Zones in which it is weaker than its material, or stronger; one over the other. m from its centre of mass, along the axes of
     /// its shape. Not part of the bake.
     pub weakness: Vec<Patch>,
     /// Weakness painted with the vertex colours of its mesh; [`BodySpec::weakness`] lies over it. Not part of the bake, but the
@@ -50,11 +50,11 @@ pub struct BodySpec {
     pub specimen: Option<f64>,
     /// Static fatigue: the loss of strength under loads that last; that of the material preset if none is given.
     pub fatigue: Option<Fatigue>,
-    /// What is to differ from the bake of a [`BodySource::Asset`]; not looked at for other sources.
+    /// Changes to the bake of a [`BodySource::Asset`]; not looked at for other sources.
     pub rescale: Rescale,
 }
 
-/// Where a body starts. The floor is y = 0, also where there is none.
+/// Position of a body at the start. The floor is y = 0, also where there is none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Place {
     /// On the floor.

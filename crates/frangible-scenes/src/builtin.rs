@@ -17,7 +17,7 @@ use crate::sheets;
 use crate::showpieces;
 use crate::source::BodySource;
 
-/// What happens to the body.
+/// Motion that breaks the body.
 enum Action {
     Drop(f64),
     Throw(Projectile),

@@ -1,4 +1,4 @@
-//! Where to look from, so that what a picture is about fills it.
+//! Choice of cameras, so that the subject of a picture fills it.
 
 use frangible::glam::Vec3;
 use frangible_recording::{Recording, View};
@@ -23,7 +23,7 @@ const STAYS: f32 = 0.01;
 /// The centre of a piece that hangs is higher over the floor than this, m.
 const HANGS: f32 = 0.05;
 
-/// What is no higher than this share of its width lies flat.
+/// Height over width below which a body lies flat.
 const FLAT: f32 = 0.4;
 
 /// Least height of the eye over what lies flat, as a share of its distance along the floor.
@@ -47,7 +47,7 @@ const DIRECTIONS: usize = 128;
 /// A thing in a frame.
 struct Thing {
     mass: f64,
-    /// What can be seen of it from anywhere, in the mean over all sides, m²: a quarter of its surface.
+    /// Area that is seen of it, in the mean over all directions, m²: a quarter of its surface.
     area: f64,
     centre: Vec3,
     points: Vec<Vec3>,
@@ -145,7 +145,7 @@ fn over(seen: &[Vec3], look_from: Vec3) -> Vec3 {
     look_from.with_y(look_from.y.max(ABOVE * along))
 }
 
-/// What can be seen of these roles in a frame.
+/// Visible things of these roles in a frame.
 fn things(
     recording: &Recording,
     roles: &[Role],
@@ -250,7 +250,7 @@ fn group(things: &[Thing], middle: usize, share: f64) -> Vec<usize> {
     }
 }
 
-/// How many of these are pieces that a viewer counts.
+/// Number of these that a viewer counts as pieces.
 fn counted(things: &[Thing], chosen: &[usize]) -> usize {
     let areas = || chosen.iter().map(|&i| things[i].area);
     let largest = areas().fold(0.0, f64::max);

@@ -39,7 +39,7 @@ pub(crate) const MOST_TETS: usize = 2_000_000;
 /// Longest name of a scene or a file, bytes.
 const LONGEST_NAME: usize = 120;
 
-/// What is wrong, and under which key of a scene file it stands.
+/// A fault of a scene, and the key of the scene file under which it stands.
 #[derive(Debug)]
 pub(crate) struct Fault {
     /// List and number in it: `body` 0 is the first `[[body]]`.
@@ -87,7 +87,7 @@ impl Scene {
         })
     }
 
-    /// What [`Scene::validate`] checks, with the place of the fault.
+    /// Checks what [`Scene::validate`] does, and names the place of the fault.
     pub(crate) fn check(&self) -> Result<(), Fault> {
         file_name("name", "the scene's name", &self.name)?;
         for (key, what, count, least) in [

@@ -18,7 +18,7 @@ use crate::meshes::BodySurfaces;
 /// Half the width of the line, of the length of the box around the body.
 const HALF_WIDTH: f32 = 0.0008;
 
-/// How far the line stands out of the surface, in half widths: a surface as its author drew it lies less exactly where the crack ends.
+/// Height of the line above the surface, in half widths: a surface as its author drew it lies less exactly where the crack ends.
 const HEIGHT: f32 = 0.8;
 const HEIGHT_ON_AUTHORED: f32 = 3.0;
 

@@ -11,7 +11,7 @@ pub enum SceneError {
     /// No built-in scene of that name.
     #[error("there is no scene `{name}`{hint}; scenes: {known}")]
     UnknownScene {
-        /// What was asked for.
+        /// Name asked for.
         name: String,
         /// “, did you mean …”, or nothing.
         hint: String,
@@ -23,20 +23,20 @@ pub enum SceneError {
     Quantity {
         /// The quantity.
         what: &'static str,
-        /// What was given.
+        /// The value given.
         value: String,
-        /// What it must be, with its unit.
+        /// The values allowed, with their unit.
         must: &'static str,
     },
     /// Two settings that cannot stand together, or one that lacks another.
     #[error("{0}")]
     Clash(String),
-    /// Something is wrong with one body of several.
+    /// A fault of one item of several, as of one of the bodies.
     #[error("{item}: {source}")]
     Item {
-        /// Which one.
+        /// The item, by its list and number.
         item: String,
-        /// What is wrong.
+        /// Its error.
         source: Box<SceneError>,
     },
     /// A scene file that cannot be understood.
@@ -46,15 +46,15 @@ pub enum SceneError {
         file: String,
         /// Line, from 1.
         line: usize,
-        /// What is wrong there.
+        /// Fault of the line.
         problem: String,
     },
     /// A file that cannot be read.
     #[error("{problem}: {}", path.display())]
     File {
-        /// Where it was looked for.
+        /// Path at which it was looked for.
         path: PathBuf,
-        /// What is wrong.
+        /// Reason, in words.
         problem: String,
     },
     /// A file of unknown kind.
@@ -103,7 +103,7 @@ pub enum SceneError {
         one: String,
         /// Name of the other.
         other: String,
-        /// How deep, mm.
+        /// Depth of the overlap, mm.
         depth_mm: f32,
     },
     /// The number of baked bodies is not that of the scene's bodies.
@@ -122,9 +122,9 @@ pub enum SceneError {
     Rescale {
         /// Its file.
         path: PathBuf,
-        /// Why.
+        /// Reason.
         source: Box<frangible_bake::RescaleError>,
-        /// What to type, or nothing.
+        /// Command to type, or nothing.
         hint: String,
     },
     /// Walls that more tetrahedra would resolve.

@@ -16,7 +16,7 @@ use crate::text::parse_named;
 /// Height from which a body of a file is dropped, m.
 const DROP: f64 = 1.5;
 
-/// What a body of a mesh file is made of unless something else is asked for.
+/// Material of a body of a mesh file unless something else is asked for.
 const MATERIAL: &str = "porcelain";
 
 /// The scene that a file stands for: a scene file is read; a mesh or a baked body is dropped from 1.5 m, a mesh as

@@ -26,7 +26,7 @@ pub struct FirstBreak {
     pub name: String,
     /// The body before it, with the cracks that it had.
     pub body: Body,
-    /// What hit it, body frame.
+    /// Contacts that hit it, body frame.
     pub contacts: Vec<Contact>,
     /// Switches and numbers of the fracture.
     pub config: FractureConfig,

@@ -14,7 +14,7 @@ use crate::stage::set_up_as;
 /// Frames, and steps in each, per second.
 const FRAME_RATE: f32 = 60.0;
 
-/// How a game plays.
+/// Settings with which a game plays.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GamePlan {
     /// Steps of a frame of 1/60 s, from 1.
@@ -23,7 +23,7 @@ pub struct GamePlan {
     pub budget: usize,
     /// See [`GamePlan::budget`].
     pub delay: usize,
-    /// From when on a piece breaks, and with modes of its own, s after its birth: time for other threads to find them
+    /// Times after its birth from which on a piece breaks, and with modes of its own, s: other threads find them meanwhile
     /// ([`PieceConfig`](frangible_rapier::PieceConfig)).
     pub pieces: [f32; 2],
     /// Work of other threads on pieces, s per second of the game ([`PieceConfig::pace`](frangible_rapier::PieceConfig::pace)).
@@ -48,22 +48,22 @@ impl Default for GamePlan {
     }
 }
 
-/// What a game saw of a scene. All but the times is the same in every run.
+/// Record of a scene played as in a game. All but the times is the same in every run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct GameRun {
-    /// What each frame took, without waiting for its beginning, s.
+    /// Time of each frame, without waiting for its beginning, s.
     pub frames: Vec<f64>,
-    /// Where the time of each frame went: the sum over its steps.
+    /// Times of the parts of each frame: the sum over its steps.
     pub parts: Vec<StepTimings>,
     /// Bodies of the scene that broke.
     pub breaks: usize,
     /// Pieces that broke again.
     pub again: usize,
-    /// Where each rigid body is in the end: place, m, and rotation.
+    /// Pose of each rigid body at the end: position, m, and rotation.
     pub poses: Vec<[f32; 7]>,
 }
 
-/// Plays a scene so for its duration. Steps are coarse, so what breaks need not be what breaks in [`play`](crate::play()).
+/// Plays a scene with these settings for its duration. Steps are coarse, so what breaks need not be what breaks in [`play`](crate::play()).
 ///
 /// # Errors
 /// A quantity of the scene that cannot be used, not as many baked bodies as the scene has, or a break that the fracture model

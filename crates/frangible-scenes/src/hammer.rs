@@ -45,7 +45,7 @@ impl Head {
         }
     }
 
-    /// How far the apex of the striking face lies before the origin, m.
+    /// Distance by which the apex of the striking face lies before the origin, m.
     pub(crate) fn front(&self) -> f32 {
         self.profile[0][1]
     }

@@ -46,7 +46,7 @@ const FRAME: u64 = 64;
 /// Ticks after a break that are still taken one by one.
 const FINE_AFTER_BREAK: u64 = 2 * FRAME;
 
-/// What a thing in a scene is.
+/// Kind of a thing in a scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ThingKind {
     /// A breakable body of the scene: its number, from 0.
@@ -55,7 +55,7 @@ pub enum ThingKind {
     Piece {
         /// Number of the thing that broke.
         of: usize,
-        /// Where its centre of mass lay in that thing, m, along the thing's axes.
+        /// Position of its centre of mass in that thing, m, along the thing's axes.
         birth: Vec3,
     },
     /// Something that was thrown.
@@ -65,9 +65,9 @@ pub enum ThingKind {
 /// A rigid thing, with its shape.
 #[derive(Clone, Debug)]
 pub struct Thing {
-    /// What it is called.
+    /// Its name.
     pub name: String,
-    /// What it is.
+    /// Its kind.
     pub kind: ThingKind,
     /// Its shape in its own frame, m; surfaces are those of [`LiveScene::surfaces`].
     pub mesh: RecordedMesh,
@@ -75,9 +75,9 @@ pub struct Thing {
     pub mass: f64,
     /// Volume, m³.
     pub volume: f64,
-    /// Where it is in [`LiveScene::world`].
+    /// Its rigid body in [`LiveScene::world`].
     pub handle: RigidBodyHandle,
-    /// What it is to the ear.
+    /// The thing as a sound source.
     pub sounding: Sounding,
     surfaces: Option<BodySurfaces>,
     /// Its shape without the cracks that part nothing and came later, where it has such cracks.
@@ -339,7 +339,7 @@ impl LiveScene {
         &self.things
     }
 
-    /// Where a thing is now; `None` when it is gone: broken, or removed as debris.
+    /// Returns the present pose of a thing; `None` when it is gone: broken, or removed as debris.
     #[must_use]
     pub fn pose(&self, thing: &Thing) -> Option<Pose> {
         let pose = self.world.physics.bodies.get(thing.handle)?.position();

@@ -19,7 +19,7 @@ pub(crate) struct BodySurfaces {
     pub(crate) crack: usize,
     /// Surface of the lines where they end.
     pub(crate) crack_line: usize,
-    /// Whether one looks into the body.
+    /// True if one looks into the body.
     pub(crate) clear: bool,
     /// Surfaces of the materials that came with a mesh file.
     pub(crate) authored: Vec<usize>,
@@ -29,7 +29,7 @@ pub(crate) struct BodySurfaces {
 #[derive(Default)]
 struct Builder {
     mesh: RecordedMesh,
-    /// Where the mesh's origin lies in the body frame, m: texture coordinates are the whole body's.
+    /// Position of the mesh's origin in the body frame, m: texture coordinates are the whole body's.
     origin: Vec3,
     /// Looked up only, never iterated.
     known: HashMap<(u32, [u32; 5]), u32>,

@@ -1,4 +1,4 @@
-//! Which files a scene asks for.
+//! Files that a scene asks for.
 
 /// Files a scene asks for; they lie in the folder that the caller names.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,7 +17,7 @@ pub struct Output {
     pub seeds: usize,
 }
 
-/// Whether a file is wanted, and under which name.
+/// Request for a file, and its name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum FileWish {
     /// Not wanted.
@@ -52,7 +52,7 @@ impl FileWish {
         }
     }
 
-    /// Whether the file is wanted at all.
+    /// Returns true if the file is wanted at all.
     #[must_use]
     pub fn is_wanted(&self) -> bool {
         *self != Self::No

@@ -29,7 +29,7 @@ struct Start<'a> {
     bounds: [Vec3; 2],
 }
 
-/// How far one body lies inside another.
+/// Overlap of one body with another.
 #[derive(Clone, Copy, Debug, Default)]
 struct Overlap {
     /// Depth of its deepest place, m.
@@ -78,7 +78,7 @@ pub(crate) fn check_overlaps(
 /// The solids of the bodies looked at so far, by their assets; none of a surface that encloses nothing.
 type Solids = HashMap<*const Asset, Option<MeshSolid>>;
 
-/// How far either lies in the other.
+/// Overlap of two bodies: the larger of each in the other.
 fn overlap(one: &Start<'_>, other: &Start<'_>, solids: &mut Solids) -> Overlap {
     let (low, high) = (
         one.bounds[0].max(other.bounds[0]),
@@ -94,7 +94,7 @@ fn overlap(one: &Start<'_>, other: &Start<'_>, solids: &mut Solids) -> Overlap {
     }
 }
 
-/// How far places of one body lie in another: its nodes, and the middles of its tetrahedra, as two bodies in the same place have all
+/// Overlap of one body with another, at places of the first: its nodes, and the middles of its tetrahedra, as two bodies in the same place have all
 /// their nodes on each other's surface.
 fn inside(inner: &Start<'_>, outer: &Start<'_>, solids: &mut Solids) -> Overlap {
     let back = outer.rotation.inverse();

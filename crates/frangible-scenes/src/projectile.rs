@@ -1,4 +1,4 @@
-//! What is thrown at the bodies.
+//! Projectiles that are thrown at the bodies.
 
 use frangible::glam::Vec3;
 
@@ -17,13 +17,13 @@ pub struct Projectile {
     pub material: String,
     /// Number of the body it is aimed at, from 0.
     pub target: usize,
-    /// Where it is aimed at, m from the body's centre of mass, world axes.
+    /// Point that it is aimed at, m from the body's centre of mass, world axes.
     pub at: Vec3,
     /// Direction of flight, any length.
     pub toward: Vec3,
-    /// When it sets out, s after the beginning.
+    /// Time at which it sets out, s after the beginning.
     pub delay: f64,
-    /// How long it stays after that, s: a hammer is lifted again. `None`: to the end.
+    /// Time for which it stays after that, s: a hammer is lifted again. `None`: to the end.
     pub stays: Option<f64>,
 }
 

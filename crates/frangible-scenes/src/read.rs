@@ -1,4 +1,4 @@
-//! Where files are read from: the disk, or memory where there is none, as in a browser.
+//! Source of files: the disk, or memory where there is none, as in a browser.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -17,7 +17,7 @@ use crate::source::FileKind;
 /// Largest scene file, bytes.
 const LARGEST: u64 = 1 << 20;
 
-/// What is wrong with a file in memory that is not there.
+/// Message about a file that is not in memory.
 const NOT_GIVEN: &str = "this file was not given; give it together with the file that names it";
 
 /// Files that scenes are made of.
@@ -71,7 +71,7 @@ impl Files {
         }
     }
 
-    /// Whether there is such a file.
+    /// Returns true if there is such a file.
     pub(crate) fn has(&self, path: &Path) -> bool {
         match self {
             Self::Disk => path.is_file(),

@@ -28,18 +28,18 @@ struct Tracked {
     body: RigidBodyHandle,
     /// Mesh of the body without the cracks that part nothing and came later.
     plain: usize,
-    /// Whether another node follows the body now.
+    /// True once another node follows the body.
     replaced: bool,
 }
 
-/// What a node is to the camera.
+/// Role of a node for the camera.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) enum Role {
     /// A breakable body.
     Body,
     /// A piece of one.
     Piece,
-    /// What was thrown: it may leave the picture.
+    /// A projectile: it may leave the picture.
     Projectile,
 }
 
@@ -82,7 +82,7 @@ impl Recorder {
         looks.map(|look| self.surface(look))
     }
 
-    /// What was tracked so far, as plain data, and what each node follows, is to the camera and to the ear, in the order of the nodes.
+    /// Returns the recording so far, as plain data, and for each node its rigid body, its role for the camera and its sound source.
     pub(crate) fn into_parts(self) -> (Recording, Vec<RigidBodyHandle>, Vec<Role>, Vec<Sounding>) {
         let bodies = self.tracked.iter().map(|tracked| tracked.body).collect();
         (self.recording, bodies, self.roles, self.soundings)
@@ -277,7 +277,7 @@ impl Recorder {
     }
 }
 
-/// What a piece of a body is to the ear: by its own modes where it can break again.
+/// A piece of a body as a sound source: by its own modes where it can break again.
 pub(crate) fn piece_sounding(
     world: &BreakableWorld,
     body: RigidBodyHandle,

@@ -8,7 +8,7 @@ use frangible_bake::{RescaleError, scaled, with_material};
 
 use crate::error::SceneError;
 
-/// What of a baked body is to be another, without another bake. Default: nothing.
+/// Changes to a baked body that need no other bake. Default: nothing.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Rescale {
     /// Longest side, m.
@@ -125,7 +125,7 @@ pub(crate) fn rescaled(asset: Asset, rescale: &Rescale, path: &Path) -> Result<A
     Ok(asset)
 }
 
-/// What to type, and which presets need no bake.
+/// Command to type, and the presets that need no bake.
 fn hint(error: &RescaleError) -> String {
     let RescaleError::PoissonRatio {
         baked,

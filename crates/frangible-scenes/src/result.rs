@@ -1,4 +1,4 @@
-//! What came of a scene.
+//! Result of playing a scene.
 
 use frangible::glam::Vec3;
 use frangible::{Contact, ImpactReport};
@@ -6,12 +6,12 @@ use frangible_rapier::BreakCause;
 use frangible_recording::Recording;
 use frangible_sound::Sounding;
 
-/// What came of a scene.
+/// Result of playing a scene.
 #[derive(Clone, Debug)]
 pub struct Run {
     /// The animation.
     pub recording: Recording,
-    /// What each node of it is to the ear.
+    /// Each of its nodes as a sound source.
     pub soundings: Vec<Sounding>,
     /// The breaks, in the order of time.
     pub breaks: Vec<BreakRecord>,
@@ -19,7 +19,7 @@ pub struct Run {
     pub held: Vec<HeldRecord>,
     /// Everything that hit a body or its pieces and was put to the fracture, in the order of time.
     pub blows: Vec<BlowRecord>,
-    /// Whether everything but projectiles lay still at the end.
+    /// True if everything but projectiles lay still at the end.
     pub at_rest: bool,
     /// Simulated time, s.
     pub simulated: f64,
@@ -40,7 +40,7 @@ pub struct HeldRecord {
     pub contacts: Vec<Contact>,
     /// Strength over the stress, or over a bound of it: see [`frangible::Outcome::Held`].
     pub margin: f64,
-    /// What the fracture found.
+    /// Report of the fracture.
     pub report: ImpactReport,
 }
 
@@ -57,9 +57,9 @@ pub struct BlowRecord {
     pub approach_speed: f64,
     /// Kinetic energy of approach, J.
     pub approach_energy: f64,
-    /// Whether it parted what it hit.
+    /// True if it parted what it hit.
     pub broke: bool,
-    /// Strength over the stress, or over a bound of it, of what held.
+    /// Strength over the stress, or over a bound of it, if the body held.
     pub margin: Option<f64>,
 }
 
@@ -96,7 +96,7 @@ pub struct BreakRecord {
     pub time: f64,
     /// The contacts, body frame.
     pub contacts: Vec<Contact>,
-    /// How the break came about.
+    /// Report of the break.
     pub report: ImpactReport,
     /// Masses of the pieces, kg, falling.
     pub masses: Vec<f64>,
@@ -104,7 +104,7 @@ pub struct BreakRecord {
     pub volume: f64,
     /// Energy taken from the motion for the cracks, J.
     pub energy_paid: f64,
-    /// What broke it.
+    /// Cause of the break.
     pub cause: BreakCause,
     /// Kinetic energy of the body, and of all that it pushed in the step of the break, directly or through others, before that step, J.
     pub kinetic_before: f64,
@@ -120,7 +120,7 @@ pub struct BreakRecord {
 const ROUNDING: f64 = 1e-5;
 
 impl BreakRecord {
-    /// Where the break has made energy out of nothing, if it has. The motion of approach holds no more than the motion, the vibration
+    /// Describes the energy that the break has made out of nothing, if it has. The motion of approach holds no more than the motion, the vibration
     /// no more than the approach brought (and friction, where there is some), the cracks no more than either; motion and cracks together
     /// have no more than the motion had before.
     #[must_use]

@@ -198,7 +198,7 @@ pub(crate) fn resist_rolling(world: &mut BreakableWorld) {
     }
 }
 
-/// Whether all but projectiles sleep: a ball on a level floor rolls for tens of seconds.
+/// Returns true if all but projectiles sleep: a ball on a level floor rolls for tens of seconds.
 fn at_rest(world: &BreakableWorld, projectiles: &[Thrown]) -> bool {
     world.physics.bodies.iter().all(|(handle, body)| {
         let thrown = projectiles.iter().any(|t| t.handle == Some(handle));

@@ -15,9 +15,9 @@ pub struct Scene {
     pub name: String,
     /// One line about what it shows.
     pub summary: String,
-    /// What may break; at least one.
+    /// Bodies that may break; at least one.
     pub bodies: Vec<BodySpec>,
-    /// What is thrown at the bodies.
+    /// Projectiles thrown at the bodies.
     pub projectiles: Vec<Projectile>,
     /// Material preset of the floor, if there is one.
     pub floor: Option<String>,
@@ -25,11 +25,11 @@ pub struct Scene {
     pub seed: u64,
     /// Switches and numbers of the fracture.
     pub fracture: FractureConfig,
-    /// Which pieces break again.
+    /// Settings for pieces that break again.
     pub pieces: PieceSpec,
-    /// What bonds bodies whose faces touch, if anything does: tensile strength of the mortar, Pa.
+    /// Mortar between bodies whose faces touch, if there is any: its tensile strength, Pa.
     pub mortar: Option<f64>,
-    /// What bonds bodies over the faces that lie close to each other, if anything does.
+    /// Adhesive between the faces of bodies that lie close to each other, if there is any.
     pub adhesive: Option<Adhesive>,
     /// Longest simulated time, s; the scene ends sooner when everything rests.
     pub duration: f64,
@@ -49,14 +49,14 @@ pub struct Adhesive {
     pub patch: f64,
 }
 
-/// Which pieces break again, and how they are found to vibrate.
+/// Settings for pieces that break again, and for finding their modes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PieceSpec {
-    /// Pieces of pieces up to so many breaks can break again; 0: none.
+    /// Generations of pieces that can break again; 0: none.
     pub generations: u32,
-    /// Lighter ones cannot, kg.
+    /// Mass of the lightest pieces that can, kg.
     pub least_mass: f64,
-    /// How they are found to vibrate.
+    /// Method by which their modes are found.
     pub method: Method,
 }
 

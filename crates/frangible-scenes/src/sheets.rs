@@ -17,7 +17,7 @@ use crate::source::BodySource;
 /// Layer between two bodies that are bonded, m.
 const LAYER: f64 = 0.2e-3;
 
-/// How far the telephone falls, m: from 1.2 m five cracks run.
+/// Height from which the telephone falls, m: from 1.2 m five cracks run.
 const HEIGHT: f32 = 2.0;
 
 /// A telephone that falls on a corner of its cover glass.
@@ -226,7 +226,7 @@ pub(crate) fn ice_sheet() -> Result<Scene, SceneError> {
     Ok(scene)
 }
 
-/// How far a pane reaches from its centre in a direction of unit length, m.
+/// Reach of a pane from its centre in a direction of unit length, m.
 fn reach(pane: &PaneShape, toward: Vec3) -> f32 {
     let [width, depth, thickness] = pane.size.map(|side| 0.5 * side as f32);
     let corner = pane.corner as f32;

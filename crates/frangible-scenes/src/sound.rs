@@ -1,4 +1,4 @@
-//! What a run sounds like: from its recording to samples.
+//! Sound of a run: from its recording to samples.
 //!
 //! Each node is a body of the synthesiser. What struck it is in the recording: the force of each blow as the fracture found it, the cracks with
 //! their times and energy, and where pieces touched, of which the impulse is known and the duration is Hertz'.
@@ -20,17 +20,17 @@ pub use live::LiveSound;
 
 use played::Played;
 
-/// How long the last tone may ring on, s.
+/// Longest time for which the last tone may ring on, s.
 const RINGS_ON: f64 = 6.0;
 
-/// What a run sounds like.
+/// Sound of a run.
 #[derive(Clone, Debug)]
 pub struct Sounded {
     /// Pressures, Pa, left and right in turn.
     pub samples: Vec<f32>,
-    /// How they were made.
+    /// Settings of the synthesis.
     pub config: SynthConfig,
-    /// What the synthesiser did.
+    /// Report of the synthesiser.
     pub report: SynthReport,
     /// Wall-clock time of making bodies ready to sound, and of the samples, s.
     pub seconds: [f64; 2],
@@ -60,7 +60,7 @@ impl Sounded {
         f64::from(loudest)
     }
 
-    /// How long it is, s.
+    /// Its duration, s.
     #[must_use]
     pub fn duration(&self) -> f64 {
         self.samples.len() as f64 / (self.config.rate * self.config.listener.channels as f64)
@@ -73,13 +73,13 @@ impl Sounded {
     }
 }
 
-/// How a run is listened to: with the ears where the camera of its recording is, above the floor of its scene.
+/// Settings for listening to a run: with the ears where the camera of its recording is, above the floor of its scene.
 #[must_use]
 pub fn sound_config(run: &Run, scene: &Scene) -> SynthConfig {
     config_at(&run.recording.camera, scene)
 }
 
-/// How a scene is listened to from where a camera is.
+/// Settings for listening to a scene from where a camera is.
 fn config_at(camera: &View, scene: &Scene) -> SynthConfig {
     let [eye, target] = [camera.eye, camera.target].map(|p| p.as_dvec3());
     let floor = scene.floor.as_ref().map(|_| {
@@ -95,7 +95,7 @@ fn config_at(camera: &View, scene: &Scene) -> SynthConfig {
     }
 }
 
-/// What the floor of a scene is made of.
+/// Material of the floor of a scene.
 fn floor_material(scene: &Scene) -> Option<Material> {
     scene
         .floor
@@ -103,16 +103,16 @@ fn floor_material(scene: &Scene) -> Option<Material> {
         .and_then(|name| Material::preset(name).ok())
 }
 
-/// What is heard of a run.
+/// Sources of sound in a run that are heard.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sources {
     /// The forces of blows, on what was struck and on what struck.
     pub blows: bool,
     /// Cracks.
     pub cracks: bool,
-    /// What pieces touch.
+    /// Touches of pieces.
     pub touches: bool,
-    /// What slides.
+    /// Slides.
     pub slides: bool,
 }
 
@@ -126,7 +126,7 @@ impl Sources {
     };
 }
 
-/// What a run sounds like, listened to like this.
+/// Computes the sound of a run with these settings.
 ///
 /// # Errors
 /// A number of the configuration, or of the recording, that cannot be used.
@@ -134,7 +134,7 @@ pub fn sound(run: &Run, scene: &Scene, config: &SynthConfig) -> Result<Sounded, 
     sound_of(run, scene, config, Sources::ALL)
 }
 
-/// What these sources of a run sound like.
+/// Computes the sound of these sources of a run.
 ///
 /// # Errors
 /// A number of the configuration, or of the recording, that cannot be used.

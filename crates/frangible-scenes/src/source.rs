@@ -1,4 +1,4 @@
-//! Where a body's geometry comes from: a built-in shape, a mesh file, a baked body.
+//! Sources of a body's geometry: a built-in shape, a mesh file, a baked body.
 
 mod asset;
 mod extent;
@@ -20,7 +20,7 @@ use crate::read::Files;
 pub use asset::{compacted, save_asset, save_compact_asset};
 pub(crate) use extent::bounds;
 
-/// Where a body's geometry comes from.
+/// Source of a body's geometry.
 #[derive(Clone, Debug, PartialEq)]
 pub enum BodySource {
     /// A built-in shape, in its own axes.
@@ -38,7 +38,7 @@ pub enum BodySource {
         path: PathBuf,
         /// Longest side, m; without it the file's unit is the metre.
         size: Option<f64>,
-        /// Which axis of the file is up; it becomes y.
+        /// Axis of the file that is up; it becomes y.
         up: Axis,
         /// Tetrahedra of the fracture mesh, about; without it the bake's default.
         resolution: Option<usize>,
@@ -61,7 +61,7 @@ pub enum Axis {
 }
 
 impl Axis {
-    /// What is up in files of this ending: z in STL and PLY (printing, scanning) and in tetrahedra (simulation), else y
+    /// Axis that is up in files of this ending: z in STL and PLY (printing, scanning) and in tetrahedra (simulation), else y
     /// (OBJ, glTF).
     #[must_use]
     pub fn up_in(path: &Path) -> Self {
@@ -151,9 +151,9 @@ pub enum Opened {
         render: Option<Box<RenderSurface>>,
         /// Its named parts, which supports may name.
         groups: Vec<Group>,
-        /// What a user should know of it.
+        /// Notes for the user.
         notes: Vec<String>,
-        /// Whether its surface is open, so that it was closed and filled.
+        /// True if its surface is open, so that it was closed and filled.
         open: bool,
     },
     /// Baked.
@@ -161,7 +161,7 @@ pub enum Opened {
 }
 
 impl Opened {
-    /// What a user should know of it.
+    /// Returns notes for the user.
     #[must_use]
     pub fn notes(&self) -> &[String] {
         match self {
@@ -170,7 +170,7 @@ impl Opened {
         }
     }
 
-    /// Whether its surface is open, so that it was closed and filled: it may have been meant as the skin of a thin wall.
+    /// Returns true if its surface is open, so that it was closed and filled: it may have been meant as the skin of a thin wall.
     #[must_use]
     pub const fn is_open(&self) -> bool {
         matches!(self, Self::Shape { open: true, .. })

@@ -187,7 +187,7 @@ impl Stage<'_> {
     }
 }
 
-/// What the projectile of this number is called: `ball`, or `hammer 2` of several.
+/// Name of the projectile of this number: `ball`, or `hammer 2` of several.
 pub(crate) fn projectile_name(all: &[Projectile], number: usize) -> String {
     let kind = all[number].kind.name();
     match all.len() {
@@ -274,7 +274,7 @@ fn put<'a>(
     })
 }
 
-/// Whether a body's hull has hardly more volume than the body.
+/// Returns true if a body's hull has hardly more volume than the body.
 fn is_convex(asset: &Asset) -> bool {
     let points: Vec<Vector> = asset
         .fracture
@@ -286,7 +286,7 @@ fn is_convex(asset: &Asset) -> bool {
     hull.is_some_and(|volume| f64::from(volume) <= 1.01 * asset.mass.volume)
 }
 
-/// What bodies of this description and asset are made of, with what the description says of their weakness.
+/// Makes the kind of bodies of this description and asset, with the weakness that the description gives them.
 ///
 /// # Errors
 /// A weakness that cannot be used.

@@ -1,4 +1,4 @@
-//! What touches, what slides and what rolls in a world of Rapier.
+//! Touches, slides and rolling in a world of Rapier.
 
 use std::collections::BTreeMap;
 
@@ -9,12 +9,12 @@ use frangible_rapier::rapier3d::geometry::{Collider, ContactPair};
 use frangible_recording::{RecordedSlide, RecordedTouch};
 use frangible_sound::{EngineStep, Motion, Push, Touching};
 
-/// Notices what comes together, step by step.
+/// Finds touches, slides and rolling, step by step.
 #[derive(Default)]
 pub(crate) struct WorldTouching(Touching);
 
 impl WorldTouching {
-    /// What came together in the step that ended `time` s after the first frame, and what slides or rolls: `node` numbers the bodies that are
+    /// Finds the touches, slides and rolling of the step that ended `time` s after the first frame: `node` numbers the bodies that are
     /// followed.
     pub(crate) fn step(
         &mut self,
@@ -90,7 +90,7 @@ fn push(
     })
 }
 
-/// How each body moves that moves.
+/// Motion of each dynamic body.
 fn motions(world: &BreakableWorld) -> BTreeMap<u64, Motion> {
     let bodies = world.physics.bodies.iter().filter(|(_, b)| b.is_dynamic());
     let motion = bodies.map(|(handle, body)| {
@@ -111,7 +111,7 @@ mod tests {
     const RADIUS: f32 = 0.02;
     const MASS: f32 = 0.5;
 
-    /// What slides or rolls where a steel ball is thrown along a stone floor at 1 m/s, turning so fast, rad/s.
+    /// Slides and rolling of a steel ball that is thrown along a stone floor at 1 m/s, turning so fast, rad/s.
     fn thrown(spin: f32) -> Vec<RecordedSlide> {
         let mut world = BreakableWorld::new(WorldConfig::default()).expect("a world");
         world

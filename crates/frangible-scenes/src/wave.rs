@@ -7,7 +7,7 @@ use frangible::{Asset, InputError};
 
 use crate::first_break::FirstBreak;
 
-/// How much longer than its last crack grew a break is looked at.
+/// Time for which a break is looked at, over the time at which its last crack grew.
 const AFTERWARDS: f64 = 1.15;
 
 /// Rounds in which places without a number of their own take the mean of their neighbours.
@@ -22,7 +22,7 @@ pub struct Wave {
     pub triangles: Vec<[u32; 3]>,
     /// The tension at evenly spaced times.
     pub moments: Vec<WaveMoment>,
-    /// Where cracks cut the surface, in the order of time.
+    /// Cuts of cracks through the surface, in the order of time.
     pub cuts: Vec<SurfaceCut>,
     /// Strength of the weakest place of the body, Pa.
     pub strength: f64,
@@ -96,7 +96,7 @@ impl FirstBreak {
     }
 }
 
-/// Where these tetrahedra of cracks cut the surface of a body, in the order of time. `place`: where a node of the fracture mesh is, m.
+/// Cuts of these tetrahedra of cracks through the surface of a body, in the order of time. `place`: position of a node of the fracture mesh, m.
 #[must_use]
 pub fn surface_cuts<'a>(
     asset: &Asset,
@@ -156,7 +156,7 @@ fn triangles_behind(asset: &Asset) -> Vec<Vec<u32>> {
     behind
 }
 
-/// Where a number that is given at the corners of a triangle is zero, which counts as positive.
+/// Ends of the line on which a number given at the corners of a triangle is zero; zero counts as positive.
 fn line(corners: [Vec3; 3], values: [f32; 3]) -> Option<[Vec3; 2]> {
     let mut ends = [Vec3::ZERO; 2];
     let mut count = 0;

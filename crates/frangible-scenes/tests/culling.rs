@@ -1,4 +1,4 @@
-//! What the stress bounds pass over holds no crack, so results with and without them are the same bits.
+//! Stress bounds: places that they pass over hold no crack, so results with and without them are the same bits.
 
 use crate::common::{block, blow, glass, pane, steel_ball, stone_floor};
 use frangible::glam::Vec3;
@@ -59,7 +59,7 @@ fn cracks_and_pieces(outcome: &Outcome) -> Vec<u64> {
     bits
 }
 
-/// What refuses a blow, in the order of [`LookedAt`].
+/// Stages at which a blow is refused, in the order of [`LookedAt`].
 const LEVELS: [&str; 5] = [
     "by sizes",
     "by impulses",
@@ -68,7 +68,7 @@ const LEVELS: [&str; 5] = [
     "looked at",
 ];
 
-/// Whether blows of every kind were met.
+/// Returns true if blows of every kind were met.
 fn enough([sizes, impulses, amplitudes, clusters, stresses]: [usize; 5]) -> bool {
     sizes + impulses > 3 && amplitudes + clusters > 3 && stresses > 3
 }

@@ -188,7 +188,7 @@ fn fields_that_cannot_be_used_are_refused() {
 /// Half width of the scored strip, m.
 const HALF_WIDTH: f32 = 0.006;
 
-/// Where the pane is scored: a strip across it, beside the place where it is hit.
+/// The pane, scored in a strip across it, beside the place where it is hit.
 fn scored(strength: f32) -> Breakable {
     let strip = Zone::Box([
         Vec3::new(0.04 - HALF_WIDTH, -1.0, -1.0),

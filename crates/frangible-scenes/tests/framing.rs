@@ -1,4 +1,4 @@
-//! What a picture is about fills it.
+//! Framing: the subject of a picture fills it.
 
 use frangible::Material;
 use frangible::glam::{Quat, Vec3};
@@ -11,16 +11,16 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 const WIDTH: usize = 320;
 const HEIGHT: usize = 240;
 
-/// What fills so much of the picture's height or width cannot be shown much larger.
+/// Share of the picture's height or width from which on a subject cannot be shown much larger.
 const LARGE: f32 = 0.85;
 
-/// What a picture shows of the nodes whose name has a word.
+/// Part of a picture that shows the nodes whose name has a word.
 struct Shown {
     /// Share of the picture that they cover.
     cover: f64,
     /// The larger of their extents over the picture's, in width and height.
     fills: f32,
-    /// Whether all of it is within the picture.
+    /// True if all of it is within the picture.
     whole: bool,
 }
 

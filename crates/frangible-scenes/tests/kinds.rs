@@ -3,7 +3,7 @@
 use frangible_bake::weakness::{Patch, Zone};
 use frangible_scenes::{BakedBody, LiveScene, SceneError, bake, breakable, scene};
 
-/// Where and when the first break comes, and its masses, kg.
+/// Time of the first break, s, and its masses, kg.
 fn first_break(mut live: LiveScene) -> (f64, Vec<f64>) {
     while live.time() < 1.0 {
         live.step().unwrap();

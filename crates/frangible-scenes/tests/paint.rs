@@ -15,7 +15,7 @@ use frangible_scenes::{Scene, bake, parse_scene, play};
 /// Sides of the plate, m.
 const PLATE: [f32; 3] = [0.2, 0.12, 0.006];
 
-/// Where the paint lies, m from the middle, and half its width.
+/// Position of the paint, m from the middle, and half its width, m.
 const PAINT: (f32, f32) = (0.03, 0.006);
 
 /// A folder of its own, gone afterwards.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::common::{glass, rim_hit};
 use frangible::{Asset, Breakable, Contact, FractureConfig, Outcome, impact};
 
-/// What goes over the network for a body: its seed, then every impact as a count and its contacts.
+/// Message that goes over the network for a body: its seed, then every impact as a count and its contacts.
 fn message(seed: u64, impacts: &[Vec<Contact>]) -> Vec<u8> {
     let mut bytes = seed.to_le_bytes().to_vec();
     for contacts in impacts {

@@ -1,4 +1,4 @@
-//! What must grow and what must fall, in the mean over seeds.
+//! Trends: quantities that must grow and that must fall, in the mean over seeds.
 
 use std::sync::Arc;
 

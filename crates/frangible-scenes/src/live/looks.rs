@@ -11,7 +11,7 @@ use crate::recorder::FRAME_RATE;
 const HIGHEST: f32 = 2.2;
 
 impl LiveScene {
-    /// What is there now as a recording of one frame, seen from `camera`: for a file or a picture.
+    /// Records the present moment as one frame, seen from `camera`: for a file or a picture.
     #[must_use]
     pub fn recording(&self, camera: View) -> Recording {
         let mut recording = Recording {

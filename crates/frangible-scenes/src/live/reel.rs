@@ -10,7 +10,7 @@ use frangible_recording::{Pose, RecordedNode, Recording, View};
 /// Pictures kept per second of film.
 const RATE: f64 = 60.0;
 
-/// What there is at one moment, and where.
+/// Things at one moment, and their poses.
 type Moment = Vec<(Arc<Thing>, Pose)>;
 
 /// The last seconds as whoever looked on saw them: in slow motion a step is long.

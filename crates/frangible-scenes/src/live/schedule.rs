@@ -14,10 +14,10 @@ use crate::projectile::Projectile;
 use crate::scene::Scene;
 use crate::stage::{Thrown, projectile_name};
 
-/// What is thrown when, and what of it was.
+/// Projectiles to be thrown, with their times, and those that were thrown.
 pub(super) struct Schedule {
     projectiles: Vec<Projectile>,
-    /// Where each body of the scene stood in the beginning.
+    /// Position of each body of the scene in the beginning.
     targets: Vec<Target>,
     /// One per projectile.
     pub(super) thrown: Vec<Thrown>,

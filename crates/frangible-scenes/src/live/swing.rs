@@ -23,22 +23,22 @@ const CROWN: f64 = 0.06;
 /// Length of the head in radii of its face: a club hammer's.
 const SLENDERNESS: f64 = 3.0;
 
-/// From the hand to the head, m.
+/// Distance from the hand to the head, m.
 const ARM: f32 = 0.35;
 
-/// How far back the head starts, radians of its arc.
+/// Angle by which the head is drawn back at the start, radians of its arc.
 const DRAWN_BACK: f32 = 1.2;
 
-/// How far on it goes where there is nothing to strike, radians.
+/// Angle by which it goes on where there is nothing to strike, radians.
 const FOLLOW_THROUGH: f32 = 0.5;
 
-/// Another velocity than that it was led with by this share is a strike.
+/// Change of the velocity that the head is led with, as a share of it, that is a strike.
 const STRUCK: f32 = 0.01;
 
-/// How long the head is left alone from the first touch on, s.
+/// Time for which the head is left alone from the first touch on, s.
 const LOOSE: f64 = 0.08;
 
-/// How fast it is lifted away, m/s, and for how long at most, s.
+/// Speed with which it is lifted away, m/s, and the time for that at most, s.
 const LIFT: f32 = 2.5;
 const LIFTED: f64 = 0.6;
 
@@ -51,13 +51,13 @@ pub struct Swing {
     pub speed: f64,
     /// Material preset.
     pub material: String,
-    /// From where it strikes, m: only the direction to `at` matters.
+    /// Point from which it strikes, m: only the direction to `at` matters.
     pub from: Vec3,
-    /// Where the middle of its face strikes, m.
+    /// Point that the middle of its face strikes, m.
     pub at: Vec3,
 }
 
-/// Where a swung hammer is on its way.
+/// Phase of a swung hammer on its way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Phase {
     /// On its arc: the angle still to go, radians, falling, and the velocity it is led with, m/s.
@@ -73,9 +73,9 @@ enum Phase {
 pub(super) struct Swung {
     handle: RigidBodyHandle,
     pivot: Vec3,
-    /// From the pivot to the head where it strikes, m.
+    /// Vector from the pivot to the head where it strikes, m.
     arm: Vec3,
-    /// What the head turns about, unit.
+    /// Axis about which the head turns, unit.
     axis: Vec3,
     /// Radians per second.
     rate: f32,
@@ -83,7 +83,7 @@ pub(super) struct Swung {
 }
 
 impl Swung {
-    /// Where the head's centre is with this angle to go, m.
+    /// Position of the head's centre with this angle to go, m.
     fn centre(&self, angle: f32) -> Vec3 {
         self.pivot + Quat::from_axis_angle(self.axis, -angle) * self.arm
     }
@@ -216,7 +216,7 @@ impl LiveScene {
         self.swings = swings;
     }
 
-    /// Whether a hammer is still there.
+    /// Moves a hammer on. Returns false once it is gone.
     fn follow(&mut self, swung: &mut Swung, now: u64) -> bool {
         let physics = &mut self.world.physics;
         let Some(body) = physics.bodies.get_mut(swung.handle) else {
@@ -261,7 +261,7 @@ impl LiveScene {
     }
 }
 
-/// How far a blow must be moved up so that the head clears the floor, m; a blow downwards may strike it.
+/// Height by which a blow must be moved up so that the head clears the floor, m; a blow downwards may strike it.
 fn depth(head: &Head, turn: Quat, strike: Vec3, blow: Vec3) -> f32 {
     /// The head's edge sinks by less than this on the last of its arc, m.
     const MARGIN: f32 = 2e-3;

@@ -26,9 +26,9 @@ pub struct Throw {
     pub speed: f64,
     /// Material preset.
     pub material: String,
-    /// Where it starts, m.
+    /// Position at which it starts, m.
     pub from: Vec3,
-    /// Where its centre would go without anything in its way, m; another point than `from`.
+    /// Point through which its centre would go without anything in its way, m; another point than `from`.
     pub through: Vec3,
 }
 

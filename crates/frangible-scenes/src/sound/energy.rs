@@ -1,4 +1,4 @@
-//! How much energy a run lost, and how much of it became sound.
+//! Energy that a run lost, and the part of it that became sound.
 
 use std::f64::consts::PI;
 

@@ -19,7 +19,7 @@ use crate::touching::WorldTouching;
 pub struct LiveSound {
     hearing: Hearing,
     touching: WorldTouching,
-    /// Where each thing is, or was last.
+    /// Present or last pose of each thing.
     poses: Vec<Pose>,
     /// The thing of each rigid body.
     numbers: BTreeMap<(u32, u32), usize>,
@@ -96,13 +96,13 @@ impl LiveSound {
         Ok(sound)
     }
 
-    /// How it listens.
+    /// Returns its settings.
     #[must_use]
     pub fn config(&self) -> &SynthConfig {
         self.hearing.synth().config()
     }
 
-    /// What it did so far.
+    /// Returns its statistics so far.
     #[must_use]
     pub fn report(&self) -> SynthReport {
         self.hearing.synth().report()

@@ -17,7 +17,7 @@ use crate::error::SceneError;
 use crate::rescale::{MaterialEdit, Rescale};
 use crate::source::{Axis, BodySource};
 
-/// What a body is made of unless the file says otherwise.
+/// Material of a body unless the file says otherwise.
 const MATERIAL: &str = "porcelain";
 
 pub(super) fn body(table: BodyTable, usual: String, folder: &Path) -> Result<BodySpec, Fault> {

@@ -1,4 +1,4 @@
-//! What is wrong with a scene file, in words, and on which line.
+//! Messages about faults of a scene file, in words, with their lines.
 
 use frangible_mesh::nearest_name;
 use toml::Spanned;

@@ -1,4 +1,4 @@
-//! What a scene file may hold, key by key.
+//! Schema of a scene file, key by key.
 
 use serde::Deserialize;
 
@@ -55,7 +55,7 @@ pub(super) struct BodyTable {
     pub(super) fatigue: Option<FatigueTable>,
 }
 
-/// How strength falls with the time that a load lasts.
+/// Static fatigue: strength falls with the time that a load lasts.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct FatigueTable {
@@ -95,7 +95,7 @@ pub(super) struct PaneTable {
     pub(super) bow: f64,
 }
 
-/// What bonds bodies over their faces.
+/// Adhesive that bonds bodies over their faces.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct AdhesiveTable {
@@ -113,7 +113,7 @@ pub(super) struct StationTable {
     pub(super) corner: bool,
 }
 
-/// Where a body is held: one region, and along which axes.
+/// Support of a body: one region, and the axes along which it is held.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SupportTable {
@@ -204,7 +204,7 @@ pub(super) struct PiecesTable {
     pub(super) method: Option<MethodName>,
 }
 
-/// How pieces are found to vibrate.
+/// Method by which the modes of pieces are found.
 #[derive(Clone, Copy, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum MethodName {
@@ -248,7 +248,7 @@ pub(super) struct FractureTable {
     pub(super) ends_inside: Option<bool>,
 }
 
-/// Where all switches and numbers come from that the table does not give.
+/// Model that gives all switches and numbers that the table does not.
 #[derive(Clone, Copy, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum ModelName {
@@ -267,7 +267,7 @@ pub(super) enum DurationTable {
     AsPrinted { c: f64 },
 }
 
-/// What walls do right under a contact.
+/// Theory of the near field of a contact on a wall.
 #[derive(Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum NearFieldName {
@@ -276,7 +276,7 @@ pub(super) enum NearFieldName {
     Layer,
 }
 
-/// When cracks run.
+/// Timing of cracks.
 #[derive(Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub(super) enum TimingTable {
@@ -284,7 +284,7 @@ pub(super) enum TimingTable {
     TimeResolved { speed: f64 },
 }
 
-/// Where cracks run.
+/// Paths of cracks.
 #[derive(Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub(super) enum PathTable {

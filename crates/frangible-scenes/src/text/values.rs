@@ -42,7 +42,7 @@ pub(super) fn shape_text(shape: &Shape) -> String {
     }
 }
 
-/// What differs from a baked body's material.
+/// Differences from a baked body's material, as text.
 pub(super) fn edit_text(edit: &MaterialEdit) -> String {
     let texts = [("preset", &edit.preset), ("name", &edit.name)].into_iter();
     let texts = texts.filter_map(|(key, text)| Some(format!("{key} = {}", quoted(text.as_ref()?))));

@@ -17,7 +17,7 @@ const KEY: &str = "weakness";
 const ONE_ZONE: &str = "a weakness has one of `box`, `sphere` with `radius`, `plane`, `line` with `radius`, and `paint`, \
      for example { line = [[0, -0.04, 0], [0, 0.04, 0]], radius = 0.002, strength = 0.3 }";
 
-/// Where a body is weaker, or stronger: one zone, or a channel of its vertex colours, and the factors there.
+/// Part of a body that is weaker, or stronger: one zone, or a channel of its vertex colours, and the factors there.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct WeaknessTable {
