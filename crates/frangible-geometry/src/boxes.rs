@@ -5,7 +5,7 @@ use glam::Vec3;
 /// Boxes side by side: loops that a compiler turns into vector instructions.
 pub(super) const WIDE: usize = 8;
 
-/// Up to eight boxes, corner by corner; how many there are its owner knows.
+/// Up to eight boxes, corner by corner; the owner knows their number.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Boxes {
     /// x, y, z of the lower corners, m.
@@ -15,13 +15,13 @@ pub(super) struct Boxes {
 }
 
 impl Boxes {
-    /// None.
+    /// No boxes.
     pub(super) const EMPTY: Self = Self {
         low: [[0.0; WIDE]; 3],
         high: [[0.0; WIDE]; 3],
     };
 
-    /// At most eight; places without a box hold the one around the origin.
+    /// Packs at most eight boxes; places without a box hold the one around the origin.
     pub(super) fn new(boxes: impl Iterator<Item = (Vec3, Vec3)>) -> Self {
         let mut all = Self::EMPTY;
         for (k, (low, high)) in boxes.enumerate() {
@@ -33,7 +33,7 @@ impl Boxes {
         all
     }
 
-    /// Squared distance of a point from each box, m², a little less than it is: rounding must not hide what is in it.
+    /// Squared distance of a point from each box, m², rounded down a little: rounding must not hide a triangle in the box.
     pub(super) fn gaps(&self, point: Vec3) -> [f32; WIDE] {
         let (mut outside, mut from_low) = ([0.0_f32; WIDE], [0.0_f32; WIDE]);
         for axis in 0..3 {

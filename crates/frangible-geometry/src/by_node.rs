@@ -1,7 +1,7 @@
-//! Tables of what lies among a few mesh nodes.
+//! Tables of edges, faces and the like, each among a few mesh nodes.
 
-/// Entries by their lowest node and what else names them: a chain per node, numbered in the order they came. Costs
-/// what is in it, not what the mesh has, and knows no hash.
+/// Entries by their lowest node and a key: a chain per node, numbered in the order they came. Costs
+/// memory for its entries, not for the mesh, and needs no hash.
 #[derive(Debug)]
 pub struct ByNode<K> {
     /// Number plus one of each node's latest entry, 0 for none.
@@ -11,7 +11,7 @@ pub struct ByNode<K> {
 }
 
 impl<K: Copy + PartialEq> ByNode<K> {
-    /// A table of no entries, for so many nodes.
+    /// A table of no entries, for this number of nodes.
     #[must_use]
     pub fn new(node_count: usize) -> Self {
         Self {

@@ -7,7 +7,7 @@ pub struct DisjointSets {
 }
 
 impl DisjointSets {
-    /// So many numbers, each a set of its own.
+    /// Makes a set of its own of each of `count` numbers.
     #[must_use]
     pub fn new(count: usize) -> Self {
         Self {

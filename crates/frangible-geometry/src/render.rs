@@ -5,9 +5,9 @@ use glam::Vec3;
 /// Mesh to draw of a piece of a body that has a surface drawn by its author: its part of that
 /// surface and its crack faces, m, fragment frame.
 ///
-/// A mesh for the eye, and no input to physics. Where the author's surface is closed and faces outwards, so is each piece, once vertices at
-/// one place are one: each side has one that runs the other way. Thin triangles close what lies between the author's surface and the crack
-/// faces; they come last. Where one lies on a drawn triangle the two face each other, and an edge may have four triangles.
+/// A mesh for the eye, and no input to physics. If the author's surface is closed and faces outwards, so is each piece, once vertices at
+/// one place are one: each side has one that runs the other way. Thin triangles close the gap between the author's surface and the crack
+/// faces; they come last. If one lies on a drawn triangle, the two face each other, and an edge may have four triangles.
 ///
 /// A hole that the author left stays one, unless a crack runs through it: then the piece's crack faces are sewn to the border of the hole.
 /// Pieces of a surface that faces inwards stay open along their cracks.

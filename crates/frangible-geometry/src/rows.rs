@@ -45,7 +45,7 @@ impl Rows {
         self.starts.push(self.items.len() as u32);
     }
 
-    /// Gives back what memory it has too much.
+    /// Gives back unused memory.
     pub fn shrunk(mut self) -> Self {
         self.starts.shrink_to_fit();
         self.items.shrink_to_fit();

@@ -21,7 +21,7 @@ pub struct TetMesh {
 /// Local nodes of the face opposite node `k`, counter-clockwise seen from outside.
 pub const FACES: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
 
-/// A point so far beyond a face still counts as inside, relative to its distance from a corner.
+/// Distance beyond a face up to which a point still counts as inside, relative to its distance from a corner.
 const ROUNDING: f32 = 1e-5;
 
 /// Most tetrahedra that the search for a point passes.

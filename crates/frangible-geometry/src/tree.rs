@@ -219,7 +219,7 @@ struct Half {
 }
 
 impl Half {
-    /// Boxes so many levels below, or leaves, in the tree's order.
+    /// Boxes `levels` levels below, or leaves, in the tree's order.
     fn below(&self, halves: &[Self], levels: u32, found: &mut Vec<Self>) {
         match self.second {
             Some(second) if levels > 0 => {

@@ -44,7 +44,7 @@ pub struct Material {
 }
 
 impl Material {
-    /// Lowest [`crushing_pressure`](Self::crushing_pressure), Pa: what is crushed by less, as snow is, is pressed for longer than a blow is followed.
+    /// Lowest [`crushing_pressure`](Self::crushing_pressure), Pa: a softer material, such as snow, is pressed for longer than a blow is followed.
     pub const LEAST_CRUSHING_PRESSURE: f64 = 1e4;
 
     /// Checks every number, naming the one at fault.
@@ -80,7 +80,7 @@ impl Material {
         OutOfRange::unless(fits, "restitution", e, OutOfRange::RESTITUTION)
     }
 
-    /// Gives the material another tensile strength, Pa. Its flaws are others then, so the energy depth is derived again:
+    /// Sets another tensile strength, Pa. The flaws are others then, so the energy depth is derived again:
     /// `γ = 16 E G_c / R_c²`, 0.25 m at most, as for every [preset](Material::presets).
     #[must_use]
     pub fn with_strength(self, strength: f64) -> Self {
@@ -92,8 +92,8 @@ impl Material {
         }
     }
 
-    /// Gives the material another fracture energy, J/m². Its flaws stay what they are, and so does the energy depth, which is a
-    /// length of the flaws. What starts a crack at a flaw of given length grows with the root of the toughness (Griffith), so
+    /// Sets another fracture energy, J/m². The flaws stay the same, and so does the energy depth, which is a
+    /// length of the flaws. The tension that starts a crack at a flaw of given length grows with the root of the toughness (Griffith), so
     /// the strength is multiplied by the root of the ratio of the fracture energies.
     #[must_use]
     pub fn with_fracture_energy(self, fracture_energy: f64) -> Self {

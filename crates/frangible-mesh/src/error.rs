@@ -1,8 +1,8 @@
-//! Errors of meshing: each names what is wrong and how to mend it.
+//! Errors of meshing: each names the fault and how to mend it.
 
 use thiserror::Error;
 
-/// Why a solid got no tetrahedra.
+/// Error of meshing a solid.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum TetError {
@@ -59,7 +59,7 @@ pub enum TetError {
         /// Share of the largest in the volume, per cent.
         share: f64,
     },
-    /// Parts that touch along mere edges in ever new places.
+    /// Parts that touch along edges only, in ever new places.
     #[error("parts of the body touch along mere edges; ask for a few more or fewer tetrahedra")]
     Pinched,
     /// A tetrahedron flatter than promised.
@@ -72,7 +72,7 @@ pub enum TetError {
         /// Smallest angle that is promised, degrees.
         limit: f64,
     },
-    /// Whoever watched the work asked it to stop.
+    /// The observer of the work asked it to stop.
     #[error("meshing was cancelled")]
     Cancelled,
 }

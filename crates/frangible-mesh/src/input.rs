@@ -42,7 +42,7 @@ pub struct InputGroup {
 }
 
 impl InputMesh {
-    /// Triangles by the names of groups and materials, in the order of the names; what has the same name is one part.
+    /// Triangles by the names of groups and materials, in the order of the names; groups and materials of one name are one part.
     /// Names that no triangle has are left out.
     #[must_use]
     pub fn named_parts(&self) -> Vec<(String, Vec<u32>)> {

@@ -25,7 +25,7 @@ const STRAIGHT: f64 = 1e-4;
 /// Smaller pieces than the rest of this share are dropped, as the mesher does.
 const MAIN_PIECE: f64 = 0.9;
 
-/// Why tetrahedra from a file are no body. Elements are named by their numbers in the file.
+/// Error of taking in tetrahedra from a file. Elements are named by their numbers in the file.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum TetInputError {

@@ -20,7 +20,7 @@ impl Similarity {
         shift: DVec3::ZERO,
     };
 
-    /// Gives the box `[low, high]` the longest side `longest`, m, its centre staying where it is. A box without extent
+    /// Scales the box `[low, high]` about its centre to the longest side `longest`, m. A box without extent
     /// is left as it is.
     #[must_use]
     pub fn resizing([low, high]: [DVec3; 2], longest: f64) -> Self {
@@ -48,7 +48,7 @@ impl Surface {
         }
     }
 
-    /// Gives the bounding box the longest side `longest`, m, about its centre; returns what to apply to the
+    /// Scales the bounding box about its centre to the longest side `longest`, m. Returns the similarity to apply to the
     /// [`InputMesh`].
     pub fn resize(&mut self, longest: f64) -> Similarity {
         let similarity = Similarity::resizing(self.bounds(), longest);

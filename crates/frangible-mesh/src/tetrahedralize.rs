@@ -100,7 +100,7 @@ pub struct TetReport {
     pub kept: f64,
     /// Sharp features met and not reproduced.
     pub features: Features,
-    /// Tetrahedra removed where parts touched along a mere edge.
+    /// Tetrahedra removed where parts touched along an edge only.
     pub pinches: usize,
 }
 
@@ -216,7 +216,7 @@ pub fn tetrahedralize_watched(
             watch.reach(1.0)?;
             return Ok((body, report));
         }
-        // Parts are lost that are thinner than the lattice: what is missing shrinks with the square of the cell.
+        // Parts thinner than the lattice are lost: the missing volume shrinks with the square of the cell.
         cell *= (VOLUME_OFF / off).sqrt().clamp(0.5, 0.85);
         log::info!(
             "{tets} tetrahedra miss {:.1} % of the volume: refined",

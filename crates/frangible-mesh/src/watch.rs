@@ -8,7 +8,7 @@ use crate::error::TetError;
 pub(crate) struct Watch<'a> {
     tell: &'a mut dyn FnMut(f64) -> ControlFlow<()>,
     told: f64,
-    /// Share at which the present attempt started: one that is repeated shares what is left.
+    /// Share of the work at which the present attempt started: one that is repeated shares the rest.
     start: f64,
 }
 

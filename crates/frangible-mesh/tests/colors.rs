@@ -1,4 +1,4 @@
-//! Vertex colours of every format that has them, and what is wrong with damaged ones.
+//! Vertex colours of every format that has them, and errors of damaged ones.
 
 use frangible_mesh::{InputMesh, MeshFormat, parse_mesh};
 

@@ -1,4 +1,4 @@
-//! Shapes, files and hard surfaces: what is made of them, and what is refused.
+//! Shapes, files and hard surfaces: results and refusals.
 
 #[cfg(feature = "mesh-io")]
 mod colors;

@@ -20,7 +20,7 @@ const GLASS: PlateMaterial = PlateMaterial {
     },
 };
 
-/// So many shards, struck so hard that all of them ring on.
+/// A number of shards, struck so hard that all of them ring on.
 fn ringing(config: SynthConfig, shards: usize, impulse: f64) -> Synth {
     let mut synth = Synth::new(config).expect("a configuration");
     for i in 0..shards {

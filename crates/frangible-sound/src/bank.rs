@@ -1,10 +1,10 @@
 //! Resonators side by side: z ← e^{λT} z, and the sound is Re(G z).
 //!
-//! Each is a rotation that shrinks, exact for any step, and needs four products per sample, with two more for what is heard. Eight
+//! Each is a rotation that shrinks, exact for any step, and needs four products per sample, with two more for its sound. Eight
 //! go side by side in the widest vectors that the processor has; operations and their order are the same on all.
 
-/// Samples that are computed at once. What a [`Synth`](crate::Synth) is told when it has been asked for this many samples less begins on its
-/// sample; what it is told later may begin as much later.
+/// Samples that are computed at once. An event that a [`Synth`](crate::Synth) is told one block ahead begins on its sample; one that is told
+/// later may begin later by up to a block.
 pub const BLOCK: usize = 128;
 
 /// Resonators side by side.
@@ -78,7 +78,7 @@ fn ring<const RAMPS: bool>(lanes: &mut Lanes, sums: &mut Sums) {
     (lanes.gain_re, lanes.gain_im) = (gain_re, gain_im);
 }
 
-/// Lets resonators ring for a block, and adds what is heard of them.
+/// Lets resonators ring for a block, and adds their sound.
 pub(crate) fn ring_block(arch: pulp::Arch, lanes: &mut [Lanes], sums: &mut Sums) {
     arch.dispatch(Ring { lanes, sums });
 }

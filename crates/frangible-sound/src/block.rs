@@ -56,10 +56,10 @@ impl Synth {
         self.hand_out();
     }
 
-    /// Takes the events of the coming block out of the queue, and leaves out what is too much.
+    /// Takes the events of the coming block out of the queue, and leaves out those beyond the limit.
     fn due(&mut self) -> Vec<(f64, Event)> {
         if !self.sorted {
-            // Stable: what was called first happens first.
+            // Stable: of events at one time, that called first happens first.
             self.events
                 .make_contiguous()
                 .sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -144,7 +144,7 @@ impl Synth {
     }
 }
 
-/// Adds a block that leaves now, straight and towards the floor, to what comes by each way.
+/// Adds a block that leaves now, straight and towards the floor, to the pressures to come by each way.
 fn mix(coming: &mut [Vec<f32>], now: u64, ways: &Ways, heard: &[[f32; BLOCK]; 2]) {
     for way in ways.iter() {
         let heard = &heard[usize::from(way.by_floor)];

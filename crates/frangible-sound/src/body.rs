@@ -62,7 +62,7 @@ impl Mode {
 }
 
 impl Body {
-    /// A ball that moves as a whole and rings above what is heard: radius, m, and mass, kg.
+    /// A ball that moves as a whole and rings above the range of hearing: radius, m, and mass, kg.
     ///
     /// # Errors
     /// A radius or a mass that is not above zero.

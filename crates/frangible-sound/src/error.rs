@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-/// Why something cannot be made to sound; each message says how to mend it.
+/// Error in the input of the synthesis; each message says how to mend it.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum SoundError {

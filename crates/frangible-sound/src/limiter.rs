@@ -1,4 +1,4 @@
-//! A soft limiter for live play, where nobody knows how loud the loudest will be. It says what it did.
+//! A soft limiter for live play, where the loudest pressure is not known before. It reports what it did.
 
 use crate::error::{SoundError, checked_full_scale};
 
@@ -13,10 +13,10 @@ pub struct LimiterReport {
     pub reduction: f64,
 }
 
-/// From pressure, Pa, to samples below full scale: as it is up to this share of full scale, above it bent ever more.
+/// Share of full scale up to which a pressure stays as it is; above it, it is bent ever more.
 const KNEE: f64 = 0.7;
 
-/// Makes pressures fit a loudspeaker: −1 to 1, what is louder than 0.7 of full scale bent.
+/// Makes pressures fit a loudspeaker, −1 to 1; those above 0.7 of full scale are bent.
 #[derive(Clone, Debug)]
 pub struct Limiter {
     /// Pressure of full scale, Pa.

@@ -1,4 +1,4 @@
-//! Who listens, from where, and by which ways the sound comes.
+//! The listener, and the ways by which sound comes to the ears.
 
 use frangible::Material;
 use glam::DVec3;
@@ -74,7 +74,7 @@ impl Listener {
     }
 }
 
-/// A hard level floor: it reflects what is above it, and is struck itself.
+/// A hard level floor: it reflects the sound above it, and is struck itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SoundFloor {
     /// Its y coordinate, m.
@@ -82,7 +82,7 @@ pub struct SoundFloor {
     /// Share of the pressure that it reflects, 0–1: 0.97 for stone and concrete, whose absorption is 0.01 to 0.05 (any table of absorption
     /// coefficients), 0.8 for carpet.
     pub reflection: f64,
-    /// Shear modulus of what it is made of, Pa.
+    /// Shear modulus of its material, Pa.
     pub shear_modulus: f64,
     /// Poisson's ratio of it.
     pub poisson_ratio: f64,
@@ -158,7 +158,7 @@ pub(crate) struct Way {
 /// Ways to an ear, and ears.
 pub(crate) const MOST_WAYS: usize = 4;
 
-/// The ways of a sound, and how many there are.
+/// The ways of a sound, and their number.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Ways {
     ways: [Way; MOST_WAYS],
@@ -166,8 +166,8 @@ pub(crate) struct Ways {
 }
 
 impl Ways {
-    /// From a sphere of a radius, m, at a place, m, directly and by the floor. The pressure at the listener's distance from it is taken as given
-    /// for both.
+    /// Finds the ways from a sphere of a radius, m, at a place, m, directly and by the floor. The pressure at the listener's distance from it is
+    /// taken as given for both.
     pub(crate) fn new(
         listener: &Listener,
         floor: Option<&SoundFloor>,
@@ -192,7 +192,7 @@ impl Ways {
             add(channel, ear, place, 1.0, false);
             if let Some(floor) = floor.filter(|f| f.reflection > 0.0) {
                 let mut image = place;
-                // What has sunk into the floor by the engine's tolerance lies on it.
+                // A body that has sunk into the floor by the engine's tolerance lies on it.
                 image.y = 2.0 * floor.height - place.y.max(floor.height);
                 add(channel, ear, image, floor.reflection, true);
             }

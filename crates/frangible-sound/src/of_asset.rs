@@ -24,7 +24,7 @@ pub struct AssetSound {
 }
 
 impl AssetSound {
-    /// Makes a body ready to sound, as what holds it lets it: its modes up to [`HIGHEST`], their motion spread over a sphere.
+    /// Makes a body ready to sound, as its hold lets it: its modes up to [`HIGHEST`], their motion spread over a sphere.
     ///
     /// # Errors
     /// A surface without area, or a number of the asset at fault.

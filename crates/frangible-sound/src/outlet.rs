@@ -33,7 +33,7 @@ struct Waiting {
 }
 
 impl Outlet {
-    /// An empty queue for a loudspeaker of so many samples per second.
+    /// An empty queue for a loudspeaker of this rate, samples per second.
     #[must_use]
     pub fn new(rate: f64) -> Self {
         Self {
@@ -52,7 +52,7 @@ impl Outlet {
         self.waiting.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Fills `out` with what comes next; silence where nothing waits.
+    /// Fills `out` with the next samples; silence where none wait.
     pub fn play(&self, out: &mut [f32]) {
         let mut waiting = self.waiting();
         waiting.flows |= waiting.samples.len() >= self.values(AHEAD) + out.len();
@@ -69,13 +69,13 @@ impl Outlet {
         }
     }
 
-    /// All that waits.
+    /// Takes all samples that wait.
     #[must_use]
     pub fn drain(&self) -> Vec<f32> {
         self.waiting().samples.drain(..).collect()
     }
 
-    /// Forgets what waits.
+    /// Forgets the samples that wait.
     pub fn clear(&self) {
         self.waiting().samples.clear();
     }

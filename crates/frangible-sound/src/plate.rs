@@ -261,7 +261,7 @@ impl Plate {
             / self.mass.sqrt()
     }
 
-    /// Both faces and the rim.
+    /// Elements of both faces and the rim.
     fn surface(&self) -> Vec<SurfaceElement> {
         let [a, b, h] = self.sides;
         let step = |i: usize| (i as f64 + 0.5) / POINTS as f64 - 0.5;

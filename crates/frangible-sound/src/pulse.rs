@@ -1,4 +1,4 @@
-//! A force over time, and what it does to an oscillator: exact between its values.
+//! A force over time, and the response of an oscillator to it: exact between its values.
 
 use crate::complex::Complex;
 use crate::error::{SoundError, finite, within};

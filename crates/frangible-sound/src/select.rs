@@ -6,7 +6,7 @@ use crate::voice::Voice;
 const BANDS: usize = 25;
 
 /// A tone this far below all others of its critical band is not heard, as a share of their power: −50 dB. Tones of one band die
-/// away about as fast as each other, so that what is masked stays so.
+/// away about as fast as each other, so that a masked one stays so.
 const MASKED: f32 = 1e-5;
 
 /// The critical band of a frequency, Hz: Traunmüller's formula (J. Acoust. Soc. Am. 88, 1990).
@@ -53,7 +53,7 @@ pub(crate) fn select(voices: &mut [Option<Voice>], budget: usize, levels: &mut V
     }
     let over = levels.len() - budget;
     let (_, &mut bar, _) = levels.select_nth_unstable_by(over - 1, f32::total_cmp);
-    // Of equally loud ones the last go.
+    // Of equally loud ones the last are dropped.
     let below = levels.iter().filter(|&&level| level < bar).count();
     let (ties, mut at_bar) = (over - below, levels.iter().filter(|&&l| l == bar).count());
     for voice in voices.iter_mut().flatten() {

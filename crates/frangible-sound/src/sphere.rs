@@ -200,7 +200,7 @@ fn principal(diagonal: DVec3, mixed: DVec3) -> (DQuat, DVec3) {
     for _ in 0..12 {
         for (p, q) in [(0, 1), (0, 2), (1, 2)] {
             let size = a[p][p].abs() + a[q][q].abs();
-            // What is symmetric but for rounding keeps its axes.
+            // Axes with no more than rounding between them are kept.
             if a[p][q].abs() <= 1e-9 * size {
                 continue;
             }

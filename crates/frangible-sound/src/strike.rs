@@ -51,7 +51,7 @@ impl Strike {
         Ok(())
     }
 
-    /// The vibration energy that a body is left with, J, at the time of the strike's beginning and without what it loses meanwhile.
+    /// The vibration energy left in a body, J, as of the strike's beginning and without losses during it.
     #[must_use]
     pub fn energy(&self, body: &Body) -> f64 {
         let modes = body.modes.iter().zip(&self.push);
@@ -62,7 +62,7 @@ impl Strike {
         energy.sum()
     }
 
-    /// A crack that is heard: while it opens the stress of its faces falls, on both sides alike, and that shakes what it runs through.
+    /// A crack that is heard: while it opens, the stress of its faces falls, on both sides alike, and that shakes the body.
     ///
     /// The release is a half-sine of a duration, s: the crack's length over its speed. Its shape on the modes is the push of a force on the
     /// crack's faces, and its size is such that all modes together get this energy, J; those that are heard get the part of it that a
@@ -91,10 +91,10 @@ impl Strike {
     }
 }
 
-/// The first push between two bodies that come together with a speed, m/s: its impulse, N·s, and how long it takes, s.
+/// The first push between two bodies that come together with a speed, m/s: its impulse, N·s, and its duration, s.
 ///
-/// Rigid bodies yield so many m/s to one newton-second, [`Body::yields`] in sum. Modes that are fast enough to answer
-/// yield as well, so that less mass has to be stopped at first, and the push is both smaller and shorter. What the modes get is then never more than
+/// One newton-second changes the speed of rigid bodies by their [`Body::yields`] in sum, m/s. Modes that are fast enough to answer
+/// yield as well, so that less mass has to be stopped at first, and the push is both smaller and shorter. The modes then never get more than
 /// a quarter of the energy of the approach, where the impulse of rigid bodies could give them many times that. `takes` finds a push's
 /// duration, s, from the mass that it stops, kg.
 #[must_use]
@@ -125,7 +125,7 @@ pub fn first_push(
     (speed * mass, duration)
 }
 
-/// Rounds in which a push and what answers it find each other: each halves what is missing, so that a factor of ten becomes 0.2 %.
+/// Rounds in which the push and the answering modes are made to agree: each halves the error, so that a factor of ten becomes 0.2 %.
 const ROUNDS: usize = 10;
 
 /// Share of the energy that cracks take which leaves them as waves in the body. The rest opens the surfaces and is heat. No figure for

@@ -225,7 +225,7 @@ impl Voice {
         (heard.sqrt() as f32).max(self.slots[i].expected)
     }
 
-    /// Lets what goes fade out within this block.
+    /// Fades a resonator out within this block.
     pub(crate) fn fade(&mut self, i: usize) {
         let (lanes, k) = (&mut self.lanes[i / LANES], i % LANES);
         lanes.ramp_re[k] = -lanes.gain_re[k] / BLOCK as f32;
@@ -233,7 +233,7 @@ impl Voice {
         self.slots[i].goes = true;
     }
 
-    /// Lets all of it fade out from a time in samples on: the body is no more.
+    /// Fades the voice out from a time in samples on: the body is no more.
     pub(crate) fn hush(&mut self, from: f64) {
         self.ends = Some(self.ends.map_or(from, |ends| ends.min(from)));
     }

@@ -35,7 +35,7 @@ pub fn wav(
             expected: format!("a multiple of {channels} is"),
         });
     }
-    // What is silent has no loudest sample.
+    // Silence has no loudest sample.
     let full_scale = checked_full_scale(if full_scale == 0.0 { 1.0 } else { full_scale })?;
     let spec = WavSpec {
         channels: channels as u16,
@@ -48,7 +48,7 @@ pub fn wav(
     let mut writer = WavWriter::new(&mut bytes, spec).map_err(told)?;
     for &sample in samples {
         let share = f64::from(sample) / full_scale;
-        // As much more than full scale as rounding can make of it.
+        // Rounding may exceed full scale by this much.
         within(
             || "a sample, as a share of full scale,".into(),
             share,

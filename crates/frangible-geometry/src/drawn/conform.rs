@@ -1,4 +1,4 @@
-//! Polygons that tile a surface get the same corners along what they share.
+//! Polygons that tile a surface get the same corners along their common sides.
 //!
 //! Each triangle of the surface is divided by itself ([`super::overlay`]): along a side of two triangles the one may have a corner where
 //! the other has none, and within a triangle a polygon may have one in the middle of another's side. Here each polygon takes in the corners
@@ -137,7 +137,7 @@ impl<'a> Corners<'a> {
         })
     }
 
-    /// Gives the parts of a divided triangle their numbered corners, one after the other; those that are nothing but a line get none.
+    /// Gives the parts of a divided triangle their numbered corners, one after the other; parts that are nothing but a line get none.
     pub(super) fn conform(
         &mut self,
         parts: &[Cut],

@@ -40,7 +40,7 @@ struct Edge {
 }
 
 impl Edges {
-    /// None where the triangles face inwards, or enclose nothing.
+    /// Finds the edges of a surface; none where the triangles face inwards, or enclose nothing.
     pub(super) fn new(surface: &RenderSurface) -> Option<Self> {
         let welded = surface.welded();
         let middle = surface

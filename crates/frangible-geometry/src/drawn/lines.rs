@@ -23,7 +23,7 @@ pub(super) fn pairs(borders: &[Vec<DVec3>], rims: &[Vec<DVec3>], most: f64) -> V
             if (l - high).max(low - h).max_element() > most {
                 continue;
             }
-            // Of a speck beside a long line only the way there is short.
+            // From a speck the way to a long line is short, but not the way back.
             let there = gap(border, &rim_sides[r], most);
             let gap = there.and_then(|there| Some(gap(rim, &border_sides, most)?.max(there)));
             gaps.extend(gap.map(|gap| (gap, b, r)));

@@ -73,7 +73,7 @@ pub struct Piece<'a> {
     pub label: u32,
     /// Normals at the corners of its crack faces, face after face.
     pub normals: &'a [[Vec3; 3]],
-    /// Its centre of mass, m, body frame: the origin of what is drawn.
+    /// Its centre of mass, m, body frame: the origin of its mesh.
     pub centre: DVec3,
 }
 
@@ -99,7 +99,7 @@ impl Share {
         self.numbered.push((triangle, self.corners.len() as u32));
     }
 
-    /// Those triangles and parts, each with its corners.
+    /// The numbered triangles and parts, each with its corners.
     fn numbered(&self) -> impl Iterator<Item = (u32, &[Corner])> {
         let mut first = 0;
         self.numbered.iter().map(move |&(t, end)| {

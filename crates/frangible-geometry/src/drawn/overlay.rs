@@ -43,7 +43,7 @@ pub(super) struct Ground {
 }
 
 impl Ground {
-    /// Nothing for a triangle without area.
+    /// The ground of a triangle; none without area.
     pub(super) fn new([a, b, c]: [DVec3; 3], is_turned: bool) -> Option<Self> {
         let (u, v) = (b - a, c - a);
         let normal = u.cross(v);
@@ -107,7 +107,7 @@ impl Ground {
     }
 }
 
-/// A triangle of the author's surface and what lies under it.
+/// A triangle of the author's surface, and the parts of the boundary under it.
 pub(super) struct Overlay<'a> {
     pub(super) ground: Ground,
     /// Distance under and over the triangle in which parts are looked for: the fracture mesh's mean edge, m.
@@ -331,7 +331,7 @@ impl Overlay<'_> {
     }
 }
 
-/// Those that a polygon meets.
+/// Shades that a polygon meets.
 fn over<'a>(polygon: &[DVec2], shades: &[&'a Shade]) -> Vec<&'a Shade> {
     let within = bounds(polygon);
     let meets = |shade: &&&Shade| shade.meets(polygon, within);
@@ -381,7 +381,7 @@ fn runs_through(polygon: &[DVec2], from: DVec2, to: DVec2) -> bool {
     first < last
 }
 
-/// Gives the shade what it covers of the piece, and returns the rest.
+/// Gives the shade's label to the part of the piece that it covers, and returns the rest.
 fn cover(piece: Polygon, shade: &Shade, divided: &mut Vec<(Polygon, u32)>) -> Vec<Polygon> {
     if !overlap(&piece, &shade.corners) {
         return vec![piece];

@@ -9,7 +9,7 @@ use super::polygon::{Polygon, split};
 use super::under::{Boundary, Lie, Under};
 use crate::TriangleTree;
 
-/// Triangles of a square of this side about the middle, turned by an angle, with so many cells a side and slightly uneven.
+/// Triangles of a square of this side about the middle, turned by an angle, with `cells` cells a side and slightly uneven.
 fn sheet(side: f64, cells: u32, turn: f64, uneven: f64) -> (Vec<Vec3>, Vec<[u32; 3]>) {
     let at = |i: u32| side * (f64::from(i) / f64::from(cells) - 0.5);
     let mut positions = Vec::new();

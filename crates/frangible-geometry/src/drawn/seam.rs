@@ -1,9 +1,9 @@
 //! Seam between a fragment's share of the author's surface and its crack faces.
 //!
 //! The fracture mesh only follows the author's surface, so the two borders are two lines close to each other. The rim of the crack faces is
-//! laid on the border of the share, and crack faces take in the corners that the border has between two points of the rim. Where a rim is too
-//! far away to be laid there, triangles close what is open between the two lines. A border that has none of the other kind beside it is closed
-//! by itself: of a speck, say, that one of the two does not have.
+//! laid on the border of the share, and crack faces take in the corners that the border has between two points of the rim. If a rim is too
+//! far away to be laid there, triangles close the gap between the two lines. A border that has no rim beside it, or a rim without a border, is
+//! closed by itself, as that of a speck which only one of the two has.
 
 use std::collections::BTreeMap;
 
@@ -13,7 +13,7 @@ use super::assemble::Face;
 use super::lines::{Side, lay, pairs};
 use super::rings::{Ring, open, rings};
 
-/// A rim lies no farther than so many reaches from the border that it belongs to, in the mean.
+/// Largest mean distance of a rim from the border that it belongs to, in reaches.
 const FAR: f64 = 2.0;
 
 /// A rim's point that is laid no farther than this from a corner of a border, in reaches, is laid on the corner: drawn corners are rounded, and
@@ -97,7 +97,7 @@ impl RimPoint {
     }
 }
 
-/// Crack faces of a fragment, and what is known of the points of all fragments' crack faces, which are numbered from `first` on.
+/// Crack faces of a fragment, with places and normals of the points of all fragments' crack faces, which are numbered from `first` on.
 #[derive(Clone, Copy)]
 pub(super) struct CrackFaces<'a> {
     pub(super) faces: &'a [[u32; 3]],

@@ -5,7 +5,8 @@ use glam::Vec3;
 use super::RenderSurface;
 use crate::box_projection;
 
-/// So many vertices at one place of the surface are compared with a corner: at the tip of a fan of thousands of flat triangles each has its own.
+/// Vertices at one place of the surface that are compared with a corner, at most: at the tip of a fan of thousands of flat triangles each has
+/// its own.
 const COMPARED: usize = 8;
 
 /// A corner as it is drawn.
@@ -21,7 +22,7 @@ pub(super) struct Vertex {
 #[derive(Debug)]
 pub(super) struct Vertices {
     list: Vec<Vertex>,
-    /// Those of each triangle.
+    /// Vertices of each triangle.
     of: Vec<[u32; 3]>,
 }
 

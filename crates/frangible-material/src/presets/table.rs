@@ -107,7 +107,7 @@ const fn under_blows(preset: Preset, dynamic_increase: f64) -> Preset {
     }
 }
 
-/// Soda-lime glass whose strength in tests at 2 MPa/s is so many times smaller than under a blow.
+/// Soda-lime glass with static fatigue: in tests at 2 MPa/s its strength is smaller than under a blow by the dynamic increase factor.
 const fn tired(preset: Preset) -> Preset {
     Preset {
         fatigue: Some(Fatigue {

@@ -148,12 +148,12 @@ impl DistanceSolid {
 
 /// Operators. All lengths in m.
 impl DistanceSolid {
-    /// Both together.
+    /// Union of both.
     pub fn union(self, other: Self) -> Self {
         self.smooth_union(other, 0.0)
     }
 
-    /// Both together, the creases between them filled over about `blend`.
+    /// Union of both, the creases between them filled over about `blend`.
     pub fn smooth_union(self, other: Self, blend: f64) -> Self {
         let swell = 0.25 * blend.max(0.0);
         let reach = self.reach.union(&other.reach).grown(swell);
@@ -257,7 +257,7 @@ impl DistanceSolid {
         }
     }
 
-    /// `count` turned copies around z of what lies around the positive x axis: of its half with y ≥ 0 and that half's
+    /// `count` copies turned around z of the part about the positive x axis: of its half with y ≥ 0 and that half's
     /// mirror image, as far as it keeps to its sector.
     pub fn ring(self, count: u32) -> Self {
         let turned = |extent: &Extent| {
@@ -292,7 +292,7 @@ impl DistanceSolid {
         }
     }
 
-    /// Hollow: what lies within `wall` of the surface, inside.
+    /// Hollow shell: the part of the body within `wall` of its surface.
     pub fn shell(self, wall: f64) -> Self {
         Self {
             bounds: self.bounds,

@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec3};
 
-/// A box along the axes by its lowest and highest corner, m; infinite for what has no bounds.
+/// A box along the axes by its lowest and highest corner, m; infinite for a body without bounds.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Extent {
     pub(super) low: DVec3,

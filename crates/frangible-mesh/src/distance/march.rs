@@ -13,7 +13,7 @@ pub fn first_hit(
     tolerance: f64,
 ) -> Option<DVec3> {
     let mut way = 0.0;
-    // A ray that grazes a surface slows down; after so many steps it counts as a hit.
+    // A ray that grazes a surface slows down; after this many steps it counts as a hit.
     for _ in 0..4096 {
         let p = origin + way * direction;
         let distance = solid.signed_distance(p);

@@ -23,10 +23,10 @@ use operators::{smooth_max, smooth_min};
 #[derive(Clone, Debug)]
 pub struct DistanceSolid {
     node: Node,
-    /// Holds the body.
+    /// Box that holds the body.
     bounds: Extent,
-    /// No value outside this box is smaller than the distance to it: more than to hold the body, and what may be clipped off
-    /// `bounds` may not be clipped here.
+    /// Box outside which no value is smaller than the distance to it. It may be larger than `bounds`, which can be clipped where this one may
+    /// not be.
     reach: Extent,
 }
 

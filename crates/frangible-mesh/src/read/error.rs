@@ -1,14 +1,14 @@
-//! Why a mesh file cannot be used.
+//! Errors of reading a mesh file.
 
 use std::io;
 use std::path::PathBuf;
 
 use thiserror::Error;
 
-/// Why a mesh file cannot be used. Faces, vertices and lines are counted from 1.
+/// Error of reading a mesh file. Faces, vertices and lines are counted from 1.
 #[derive(Debug, Error)]
 pub enum ReadError {
-    /// Nothing has this name.
+    /// No file of this name.
     #[error("there is no file {}{}", path.display(), did_you_mean(nearest.as_deref()))]
     Missing {
         /// The path asked for.
@@ -33,7 +33,7 @@ pub enum ReadError {
     /// Neither the name nor the content tells the format.
     #[error("cannot tell the format of {name}: known are .obj, .stl, .ply, .gltf and .glb")]
     UnknownFormat {
-        /// File name, or what stands in for it.
+        /// File name, or a text in its place.
         name: String,
     },
     /// The content ends too soon.
@@ -79,7 +79,7 @@ pub enum ReadError {
         /// Number of the vertex, from 1.
         vertex: usize,
     },
-    /// Nothing to make a solid of.
+    /// No triangles to make a solid of.
     #[error("the file has no triangles; a solid needs a surface, not points, lines or curves")]
     NoTriangles,
     /// More than is sensible to read.
@@ -99,10 +99,10 @@ pub enum ReadError {
         "cannot tell the format of {name}: known for tetrahedra are .msh, .node with .ele, .vtk, .vtu and .mesh"
     )]
     UnknownTetFormat {
-        /// File name, or what stands in for it.
+        /// File name, or a text in its place.
         name: String,
     },
-    /// Nothing solid.
+    /// No tetrahedra.
     #[error("the file has no tetrahedra; save the volume mesh as well, not the surface alone")]
     NoTetrahedra,
     /// Solid elements of another shape.

@@ -12,7 +12,7 @@ pub(crate) struct Runs {
 }
 
 impl Runs {
-    /// From triangle `next` on, these names hold; what held so far is added to `groups` if it has any triangle.
+    /// Begins a run of these names at triangle `next`; the run before it is added to `groups` if it has any triangle.
     pub(crate) fn change(
         &mut self,
         names: impl IntoIterator<Item = String>,

@@ -16,7 +16,7 @@ const FACET: usize = 50;
 const NO_STL: &str = "this is text, but no STL: a text STL begins with the word “solid”";
 
 pub(crate) fn parse(bytes: &[u8]) -> Result<InputMesh, ReadError> {
-    // Binary files, too, may begin with “solid”: the length decides, then what follows the word.
+    // Binary files, too, may begin with “solid”: the length decides, then the bytes after the word.
     if is_exactly_binary_stl(bytes) {
         parse_binary(bytes)
     } else if is_text(bytes) {

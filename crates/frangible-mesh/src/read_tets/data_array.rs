@@ -47,7 +47,7 @@ pub(super) struct Arrays<'a> {
 }
 
 impl<'a> Arrays<'a> {
-    /// They begin behind an underscore.
+    /// Finds the appended arrays, which begin behind an underscore.
     pub(super) fn appended(tag: &Tag<'_>, rest: &'a [u8]) -> Result<Self, ReadError> {
         let start = rest.iter().position(|b| !b.is_ascii_whitespace());
         let bytes = start.and_then(|at| rest[at..].strip_prefix(b"_"));

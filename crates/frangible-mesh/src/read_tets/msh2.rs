@@ -66,7 +66,7 @@ pub(super) fn elements(
     Ok(())
 }
 
-/// The count that opens a section, always text; what follows is in `coding`.
+/// The count that opens a section, always text; the rest of the section is in `coding`.
 fn counted(cursor: &mut Cursor<'_>, coding: Coding, inside: &str) -> Result<u64, ReadError> {
     let count = cursor.count(4, inside)?;
     if coding != Coding::Text {

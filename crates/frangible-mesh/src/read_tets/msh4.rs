@@ -46,7 +46,7 @@ pub(super) fn entities(cursor: &mut Cursor<'_>) -> Result<Entities, ReadError> {
 pub(super) fn nodes(cursor: &mut Cursor<'_>, builder: &mut Builder) -> Result<(), ReadError> {
     let inside = "$Nodes";
     let blocks = cursor.count(8, inside)?;
-    // How many, and the least and greatest number: found out by reading.
+    // Their number, and the least and greatest tag: found out by reading.
     for _ in 0..3 {
         cursor.count(8, inside)?;
     }

@@ -21,7 +21,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<TetInput, ReadError> {
         match (tag.name.as_str(), tag.closes) {
             ("VTKFile", false) => file.open(&tag)?,
             ("Piece", false) => {
-                // As many points and cells as its arrays have: what it says it has is not needed.
+                // The arrays tell how many points and cells there are: the counts of the tag are not needed.
                 piece = Some(Piece::default());
             }
             ("Piece", true) => pieces.extend(piece.take()),

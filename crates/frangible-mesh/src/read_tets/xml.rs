@@ -74,7 +74,7 @@ impl<'a> Tags<'a> {
                 continue;
             }
             let text = self.rest();
-            // The end of what stands between two tags is looked for only where it is used.
+            // The end of the text between two tags is looked for only where it is used.
             let inside = String::from_utf8_lossy(inside);
             let (closes, inside) = match inside.strip_prefix('/') {
                 Some(rest) => (true, rest),

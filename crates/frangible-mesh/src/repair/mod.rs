@@ -1,4 +1,4 @@
-//! From the triangles of a file to a surface that a solid can be made of.
+//! Repair: turns the triangles of a file into a surface that a solid can be made of.
 
 mod column;
 mod duplicates;
@@ -27,10 +27,10 @@ const NEEDLE: f64 = 1e-10;
 /// Coordinates beyond this would overflow in a volume.
 const LARGEST: f64 = 1e60;
 
-/// Why no surface can be made. Faces and vertices are counted from 1.
+/// Error of repairing a surface. Faces and vertices are counted from 1.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum RepairError {
-    /// Nothing to repair.
+    /// No triangles to repair.
     #[error("the mesh has no triangles")]
     NoTriangles,
     /// Every triangle is a point or a line.
@@ -59,7 +59,7 @@ pub enum RepairError {
     },
 }
 
-/// Makes a surface: welds what is in one place and closes hairline cracks, drops empty and doubled triangles, winds
+/// Makes a surface: welds vertices in one place and closes hairline cracks, drops empty and doubled triangles, winds
 /// every shell outwards and every cavity inwards. Holes, crossings and edges of three triangles stay.
 ///
 /// The same mesh gives the same bits. Time grows as n log n.
@@ -222,7 +222,7 @@ fn is_flat(positions: &[DVec3], diagonal: f64) -> bool {
         .all(|&p| (p - origin).dot(normal).abs() <= FLAT * diagonal)
 }
 
-/// Winds all shells and counts what is open.
+/// Winds all shells and counts open edges and shells.
 fn wind(positions: &[DVec3], triangles: &mut [[u32; 3]], report: &mut RepairReport) {
     let edges = Edges::new(positions.len(), triangles);
     count_open_edges(positions.len(), &edges, report);

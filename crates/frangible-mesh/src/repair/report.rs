@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// Counts of what was mended and of what remains.
+/// Counts of repairs and of remaining faults.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RepairReport {
     /// Vertices after.
@@ -47,7 +47,7 @@ impl RepairReport {
     }
 }
 
-/// One line about what was mended and what remains open; empty when there is nothing to tell.
+/// One line about the repairs and the remaining faults; empty when there are none.
 impl fmt::Display for RepairReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let counted = |count: usize, before: &str, one: &str, many: &str, after: &str| {

@@ -130,7 +130,7 @@ impl Cutter<'_> {
         self.push([a[x], b[x], b[y], b[z]]);
     }
 
-    /// On the face of `a`, `b` (inside) and `out`: does the diagonal run from `a` to the cut beyond `b`?
+    /// Returns true if the diagonal of the face of `a`, `b` (inside) and `out` runs from `a` to the cut beyond `b`.
     fn runs_from_first(&self, a: u32, b: u32, out: u32) -> bool {
         let centre = |v: u32| self.lattice.is_centre[v as usize];
         match (centre(a) == centre(out), centre(b) == centre(out)) {

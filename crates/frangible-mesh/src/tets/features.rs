@@ -164,7 +164,7 @@ impl Shape {
         shape
     }
 
-    /// Looks at the surface afresh, next to what has moved since the last time.
+    /// Updates the tangent planes next to vertices that have moved since the last time.
     fn refresh(&mut self, draft: &Draft, solid: &dyn Solid) {
         let (x, cell) = (&draft.body.positions, self.cell);
         let first = self.seen.is_empty();

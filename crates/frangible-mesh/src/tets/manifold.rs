@@ -1,7 +1,7 @@
 //! Makes the surface a closed manifold: every edge between two triangles, every vertex in one fan.
 //!
-//! If two parts of the body touch along a mere edge, the smaller fan of tetrahedra at that edge goes. If they
-//! touch at a mere vertex, each part gets its own.
+//! If two parts of the body touch along an edge only, the smaller fan of tetrahedra at that edge goes. If they
+//! touch at a vertex only, each part gets its own.
 
 use frangible_geometry::{FACES, NO_NEIGHBOUR, Rows};
 
@@ -31,7 +31,7 @@ pub(crate) fn make_manifold(draft: &mut Draft) -> Result<usize, TetError> {
     Err(TetError::Pinched)
 }
 
-/// Gives each part of a body its own copy of a node at which it touches others; pairs of a node and its copy.
+/// Gives each part of a body its own copy of a node at which it touches others. Returns pairs of a node and its copy.
 pub(crate) fn part_touching(body: &mut TetBody) -> Vec<(u32, u32)> {
     let mut draft = Draft {
         on_surface: vec![true; body.positions.len()],
@@ -138,7 +138,7 @@ fn fans(ring: &[u32], near: &[[u32; 4]], shared: impl Fn(u32, usize) -> bool) ->
     groups
 }
 
-/// Gives each face-connected fan of tetrahedra around a vertex its own copy of the vertex; pairs of the two.
+/// Gives each face-connected fan of tetrahedra around a vertex its own copy of the vertex. Returns pairs of the two.
 fn split_vertices(draft: &mut Draft) -> Vec<(u32, u32)> {
     let mut copies = Vec::new();
     let near = neighbours(&draft.body.tets);

@@ -1,4 +1,4 @@
-//! Tetrahedra and what is done to them once they are cut: topology, sharp features, angles.
+//! Tetrahedra and their improvement once they are cut: topology, sharp features, angles.
 
 pub(crate) mod adjacency;
 pub(crate) mod features;

@@ -21,7 +21,7 @@ const CLEARLY_INSIDE: f64 = 0.51;
 /// Hits closer than this share of a segment are one.
 const SAME_HIT: f64 = 1e-9;
 
-/// Why a surface is no solid.
+/// Error of making a solid from a surface.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SolidError {
     /// No triangle at all, or more than can be counted.
@@ -49,7 +49,7 @@ pub enum SolidError {
         /// Position given, m.
         position: DVec3,
     },
-    /// Not between 1e-30 and 1e30 m.
+    /// A size that is not between 1e-30 and 1e30 m.
     #[error("the surface measures {0:e} m; scale it to between 1e-30 m and 1e30 m")]
     Size(f64),
     /// Every triangle is a line or a point.
@@ -204,7 +204,7 @@ impl MeshSolid {
         between(sign_change(lack, 1e-6))
     }
 
-    /// The highest winding number at places that would be inside: half way from triangles to what lies behind them,
+    /// The highest winding number at places that would be inside: half way from triangles to the faces behind them,
     /// or else on a grid.
     fn highest_winding_number(&self) -> f64 {
         let [low, high] = self.bounds;

@@ -152,7 +152,7 @@ fn volume(solid: &MeshSolid) -> f64 {
 struct Random(u64);
 
 impl Random {
-    /// In 0..1.
+    /// Next number, in 0..1.
     fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;

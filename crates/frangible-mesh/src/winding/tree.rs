@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::packet::{Lanes, Packet, WIDTH};
 
 const BINS: usize = 16;
-/// Below this depth ranges are halved, whatever it costs, so that recursion stays shallow.
+/// Depth below which ranges are halved, whatever it costs, so that recursion stays shallow.
 const DEEPEST_BEST_SPLIT: usize = 24;
 
 /// Content of a node's slot.

@@ -110,7 +110,7 @@ pub(crate) fn turned(mut surface: Surface) -> Surface {
     surface
 }
 
-/// Both surfaces as one.
+/// Joins two surfaces to one.
 pub(crate) fn joined(mut one: Surface, other: Surface) -> Surface {
     let first = one.positions.len() as u32;
     one.positions.extend(other.positions);

@@ -1,4 +1,4 @@
-//! Small files of every format, written here byte by byte, and what is wrong with damaged ones.
+//! Small files of every format, written here byte by byte, and errors of damaged ones.
 
 use std::fs;
 use std::path::{Path, PathBuf};

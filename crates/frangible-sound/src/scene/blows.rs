@@ -1,4 +1,4 @@
-//! The sound of a blow: its force on what was struck and on what struck, and its cracks.
+//! The sound of a blow: its force on the struck body and on the striker, and its cracks.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -24,7 +24,7 @@ const AT_PROJECTILE: f32 = 3.0;
 /// Cracks of one blow that sound by themselves, the longest; the energy of all is shared among these.
 const MOST_CRACKS: usize = 200;
 
-/// A blow on a thing, `time` s after the first frame, as plain data: what was found of it, and the numbers of the pieces where it broke.
+/// A blow on a thing, `time` s after the first frame, as plain data: the report of the fracture, and the numbers of the pieces where it broke.
 #[must_use]
 pub fn recorded_blow(
     node: usize,
@@ -92,7 +92,7 @@ pub(super) fn blows(
     Ok(())
 }
 
-/// Lets what gave the force feel it: the floor, or something that was thrown.
+/// Applies the force to its other side as well: the floor, or a projectile.
 fn answer(
     synth: &mut Synth,
     nodes: &mut Nodes,

@@ -26,7 +26,7 @@ pub use touching::{EngineStep, Motion, Push, Touching};
 
 use nodes::Nodes;
 
-/// Blows are remembered for so long while a scene runs, s: what touches then is part of them.
+/// Time for which blows are remembered while a scene runs, s: touches within it are part of them.
 const REMEMBERED: f64 = 0.02;
 
 /// A synthesiser that hears a scene. The same calls give the same samples.
@@ -138,10 +138,10 @@ impl Hearing {
         slides::slides(&mut self.synth, &mut self.nodes, cast, slide)
     }
 
-    /// Takes in what happened in a step.
+    /// Takes in the events of a step.
     ///
     /// # Errors
-    /// A number of what happened that cannot be used; what was told before it is heard.
+    /// A number of an event that cannot be used; the events before it are heard.
     pub fn happened(
         &mut self,
         cast: &dyn Cast,
@@ -162,8 +162,8 @@ impl Hearing {
         Ok(())
     }
 
-    /// Adds what is heard until a time, s, to `out`: pressures, Pa, left and right in turn. The last [`BLOCK`] samples come with the next step,
-    /// so that what happens then begins on its sample.
+    /// Adds the sound up to a time, s, to `out`: pressures, Pa, left and right in turn. The last [`BLOCK`] samples come with the next step,
+    /// so that events of that step begin on their samples.
     pub fn until(&mut self, time: f64, out: &mut Vec<f32>) {
         let config = self.synth.config();
         let (rate, channels) = (config.rate, config.listener.channels);

@@ -77,7 +77,7 @@ impl Nodes {
         let gone = self.ready.remove(&node)?;
         let id = gone.id;
         drop(gone);
-        // What only this list and its own sound know of is the asset of a piece that is gone.
+        // An asset that only this list and its own sound know of belongs to a piece that is gone.
         let used = |asset: &Arc<Asset>, sound: &Arc<AssetSound>| {
             Arc::strong_count(sound) > 1 || Arc::strong_count(asset) > 2
         };

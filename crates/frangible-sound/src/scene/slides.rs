@@ -1,7 +1,7 @@
-//! The sound of what slides and rolls.
+//! The sound of sliding and rolling.
 //!
-//! Roughness of both surfaces shakes what slides with a noise, and what rolls more quietly: what the resistance to rolling takes is less than
-//! what friction takes. Its power is a share of what friction takes, and it is white up to where the
+//! Roughness of both surfaces shakes sliding bodies with a noise, and rolling ones more quietly, since the resistance to rolling takes less
+//! power than friction. The power of the noise is a share of that, and it is white up to the frequency at which the
 //! roughness passes the contact faster than the contact feels it: v over the length of its grain. Both are what van den Doel, Kry and Pai
 //! (FoleyAutomatic, SIGGRAPH 2001) take for scraping: a force whose power goes with the friction's, and a spectrum that goes with the speed.
 //! Their profile is a fractal one; a white one below the cut is its simplest case.
@@ -21,7 +21,7 @@ use crate::pulse::Pulse;
 use crate::strike::Strike;
 use crate::synth::Synth;
 
-/// Share of the power that friction takes from what slides, and the resistance to rolling from what rolls, which becomes vibration. The rest is
+/// Share of the power lost to friction in sliding, and to the resistance to rolling, which becomes vibration. The rest is
 /// heat. No figure for shards on stone was found; the power goes with this number, and 1e-3 makes a shard of 20 g that slides at 1 m/s about as
 /// loud as speech. One number for both, an estimate.
 const FRICTION_SHARE: f64 = 1e-3;
@@ -77,7 +77,7 @@ pub(super) fn slides(
     Ok(())
 }
 
-/// Share of the noise that lies between the lowest mode, Hz, and what is heard: its power falls as 1/(1 + (f/f_c)²) above f_c = v/grain.
+/// Share of the noise between the lowest mode, Hz, and the highest that is heard: its power falls as 1/(1 + (f/f_c)²) above f_c = v/grain.
 fn heard(speed: f64, lowest: f64) -> f64 {
     let cut = speed / GRAIN;
     ((HIGHEST / cut).atan() - (lowest / cut).atan()).max(0.0) / FRAC_PI_2

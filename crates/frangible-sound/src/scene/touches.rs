@@ -1,4 +1,4 @@
-//! The sound of pieces that touch each other, what lies about, and the floor.
+//! The sound of pieces that touch each other, other bodies, and the floor.
 
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -36,7 +36,7 @@ struct Side {
     direction: Vec3,
 }
 
-/// Lets a touch be heard by both that touch.
+/// Lets a touch be heard on both its sides.
 ///
 /// The engine's impulse is all that a touch gives in the end, also what one piece only passes on to the next. A body that rings gives way at
 /// once, so that the first push is that of the two coming together ([`first_push`]): it alone rings, and the rest comes more slowly, as long

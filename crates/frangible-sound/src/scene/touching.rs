@@ -29,15 +29,15 @@ const LEAST_POWER: f64 = 1e-4;
 /// Motion of a body: velocity, m/s, angular velocity, rad/s, and centre of mass, m.
 pub type Motion = [Vec3; 3];
 
-/// Two things that push each other in a step: one that is followed, and another one or what does not move. Engines name bodies and
+/// Two things that push each other in a step: one that is followed, and another one or a fixed body. Engines name bodies and
 /// colliders by numbers of their own.
 #[derive(Clone, Copy, Debug)]
 pub struct Push {
     /// Names of the two colliders, which are the same in the next step.
     pub colliders: [u64; 2],
-    /// Numbers of the things, and nothing for what is not followed.
+    /// Numbers of the things; none for a thing that is not followed.
     pub nodes: (usize, Option<usize>),
-    /// Names of the bodies, in the order of the things; none for what has none.
+    /// Names of the bodies, in the order of the things; none for a collider without one.
     pub bodies: [Option<u64>; 2],
     /// Mass of the lighter one that moves, kg.
     pub lightest: f32,
@@ -195,7 +195,7 @@ fn roll(
     })
 }
 
-/// Velocity of a body at a point, m/s; of what does not move, zero.
+/// Velocity of a body at a point, m/s; zero for a fixed one.
 fn speed_at(moving: &BTreeMap<u64, Motion>, body: Option<u64>, point: Vec3) -> Vec3 {
     let motion = body.and_then(|body| moving.get(&body));
     motion.map_or(Vec3::ZERO, |[velocity, spin, centre]| {

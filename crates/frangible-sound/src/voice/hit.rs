@@ -12,7 +12,7 @@ use crate::strike::Strike;
 /// A strike that has begun.
 #[derive(Clone, Debug)]
 pub(super) struct Hit {
-    /// When it began, in samples.
+    /// Time at which it began, in samples.
     pub(super) start: f64,
     pub(super) strike: Strike,
     /// Part of the force that is heard at once: Σ Im G_i φ_i / ω_i, Pa/N. It is the acceleration under the force, and a resonator, which holds a
@@ -52,7 +52,7 @@ impl Hit {
     /// A sphere of radius a that is accelerated sends p = ρ/(2π) D·a⃗ (1/r² + s/(cr)) / (2 + 2σ + σ²), σ = sa/c, D its moved air: a resonator
     /// at s = (c/a)(−1 ± i). Chadwick, Zheng and James (ACM TOG 31(6), 2012) call it acceleration noise. Turning is silent, as a sphere's is.
     ///
-    /// `towards` is the direction of the listener in the body's frame, `distance` how far it is, m.
+    /// `towards` is the direction of the listener in the body's frame, `distance` its distance, m.
     fn shaken(body: &Body, strike: &Strike, towards: DVec3, distance: f64) -> Complex {
         let sphere = &body.sphere;
         if body.mass.is_infinite() {
@@ -72,7 +72,7 @@ impl Hit {
         (near * Complex::new(0.0, -0.5 * own)).scaled(2.0 * size)
     }
 
-    /// Adds what is heard of the force at once, and of the motion as a whole, straight and towards the floor.
+    /// Adds the force that is heard at once, and the motion as a whole, straight and towards the floor.
     pub(super) fn rings(&mut self, radius: f64, rate: f64, now: f64, out: &mut [[f32; BLOCK]; 2]) {
         let first = (self.start - now).ceil().max(0.0) as usize;
         if first >= BLOCK {

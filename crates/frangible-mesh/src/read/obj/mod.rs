@@ -182,7 +182,7 @@ impl Obj {
         Ok(corner)
     }
 
-    /// From the file's index, which counts from 1, or backwards from the latest.
+    /// Index from 0, from that of the file, which counts from 1, or backwards from the latest.
     fn resolve(&self, index: i64, there: usize) -> Result<u32, ReadError> {
         let from_zero = if index > 0 {
             Some(index - 1)

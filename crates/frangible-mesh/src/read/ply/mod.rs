@@ -123,7 +123,7 @@ fn read_vertices(
     Ok(())
 }
 
-/// Gives every vertex so far the attributes that are wanted.
+/// Fills the wanted attributes of every vertex so far that lacks them.
 fn complete(mesh: &mut InputMesh, [normals, uvs, colors]: [bool; 3]) {
     let count = mesh.positions.len();
     if normals {

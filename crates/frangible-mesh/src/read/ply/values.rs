@@ -4,7 +4,7 @@ use super::header::{Encoding, Kind, Property};
 use crate::read::ReadError;
 use crate::read::text::{number, shown};
 
-/// Reads numbers from the front of what is left; every integer kind fits into f64.
+/// Reads numbers from the front of the bytes left; every integer kind fits into f64.
 pub(super) struct Values<'a> {
     encoding: Encoding,
     rest: &'a [u8],
