@@ -89,7 +89,7 @@ struct Cut {
     angle: f64,
     /// Middle of the cut, m.
     middle: Vec3,
-    /// When it was cut, s.
+    /// Time of the cut, s.
     time: f64,
 }
 
@@ -344,7 +344,7 @@ struct Run {
     length: f64,
 }
 
-/// Both arms of the crack that starts at the flaw nearest to a place, across a tension at this angle.
+/// Follows both arms of the crack that starts at the flaw nearest to a place, across a tension at this angle.
 fn run(
     asset: &Arc<Asset>,
     config: &FractureConfig,

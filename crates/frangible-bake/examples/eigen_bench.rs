@@ -19,7 +19,7 @@ use frangible_bake::{BodyMesh, MeshSize, Shape};
 
 type Failure = Box<dyn std::error::Error>;
 
-/// Name, what it is, how it is made.
+/// Name of each case, and its description.
 const CASES: [(&str, &str); 10] = [
     ("cube-2k", "T4 cube"),
     ("slab-8k", "T4 slab"),

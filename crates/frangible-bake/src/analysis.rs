@@ -64,13 +64,13 @@ impl Analysis {
                 nodes: cover.mesh.positions.len(),
                 tets: cover.mesh.elements.len(),
                 volume: fine.volume(),
-                // Of every tetrahedron of a body-centred cubic lattice.
+                // The angle of every tetrahedron of a body-centred cubic lattice.
                 min_dihedral: 60.0,
             },
         }
     }
 
-    /// Stiffness and mass, and what is held. `held`: axes of each node of the fine mesh, or nothing.
+    /// Assembles stiffness, mass and constraints. `held`: axes of each node of the fine mesh, or nothing.
     ///
     /// Nodes of a conforming mesh are on the body: those within a support's region are held. Those of a lattice are
     /// not: there springs hold the nodes of the fine mesh.

@@ -277,7 +277,7 @@ pub fn bake(
     Ok((asset, report))
 }
 
-/// The fine mesh in the frame of the shape, and what is to carry its modes.
+/// The fine mesh in the frame of the shape, and the elements that are to carry its modes.
 struct Meshes {
     fine: BodyMesh,
     coarse: Coarse,

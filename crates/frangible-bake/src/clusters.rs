@@ -94,7 +94,7 @@ impl<'a> Front<'a> {
         }
     }
 
-    /// Adds a seed: takes over what is nearer to it than to the seeds before [Dijkstra 1959].
+    /// Adds a seed: takes over the tetrahedra nearer to it than to the seeds before [Dijkstra 1959].
     fn grow(&mut self, seed: usize, cell: u32) {
         self.distance[seed] = 0.0;
         self.owner[seed] = cell;

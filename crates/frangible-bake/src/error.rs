@@ -1,10 +1,10 @@
-//! Errors of baking: each names what is wrong and how to mend it.
+//! Errors of baking: each names the fault and how to mend it.
 
 use frangible::InputError;
 use frangible_mesh::{RepairError, SolidError, TetError, TetInputError};
 use thiserror::Error;
 
-/// Why a bake gave no asset.
+/// Error of a bake.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum BakeError {

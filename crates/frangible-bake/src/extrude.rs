@@ -1,4 +1,4 @@
-//! From a triangulated sheet to tetrahedra: prisms through layers, three tetrahedra each.
+//! Extrusion of a triangulated sheet to tetrahedra: prisms through layers, three tetrahedra each.
 
 use frangible::glam::DVec3;
 

@@ -284,7 +284,7 @@ fn peaks(
             continue;
         }
         let mut stress = [[0.0_f32; TIMES]; 6];
-        // What the modes that are not followed give, each from the step on to the last.
+        // The share of the modes that are not followed, each from the step on to the last.
         let mut rest: [f32; 6] =
             std::array::from_fn(|c| rows[c].iter().zip(&still).map(|(s, q)| s * q).sum());
         let mut first = 0;

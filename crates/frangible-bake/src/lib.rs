@@ -80,7 +80,7 @@ pub use shapes::{
 };
 pub use supports::{Region, Support, check_groups, check_supports};
 
-/// Most modes that an asset keeps: the bake of a drinking glass with so many takes twice as long as with 120, and its file has 36 MB.
+/// Most modes that an asset keeps: the bake of a drinking glass with this many takes twice as long as with 120, and its file has 36 MB.
 pub const MOST_MODES: usize = 400;
 
 /// Modes that an asset keeps unless told otherwise. Measured (`cargo run --release -p frangible-bake --example modes_kept`): a

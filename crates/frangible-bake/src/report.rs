@@ -96,7 +96,7 @@ pub struct BakeReport {
     pub frequencies: Vec<f64>,
     /// Modes that the asset keeps.
     pub modes: usize,
-    /// Those of them that a blow follows through time, the lowest; the others answer statically.
+    /// Number of the lowest modes that a blow follows through time; the others answer statically.
     pub followed: usize,
     /// Largest relative residual ‖Kφ − λMφ‖ / ‖Kφ‖ of all modes.
     pub max_residual: f64,

@@ -215,11 +215,11 @@ impl<'a> Holder<'a> {
         Self { origin, ..self }
     }
 
-    /// Along which axes each of the points is held; nothing when there are no supports at all. `elements` are those of
+    /// For each of the points, the axes along which it is held; nothing when there are no supports at all. `elements` are those of
     /// the mesh whose nodes the points are.
     ///
     /// # Errors
-    /// A support that holds none of the points (`problem` says what it means), or supports that hold all of them.
+    /// A support that holds none of the points (`problem` ends the message), or supports that hold all of them.
     pub(crate) fn axes<const N: usize>(
         &self,
         points: &[DVec3],

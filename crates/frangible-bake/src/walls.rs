@@ -146,7 +146,7 @@ impl<'a> Faces<'a> {
 
     /// Thickness behind each triangle, m, and the face there: the mean of those rays that meet a nearly parallel one.
     fn thickness(&self) -> Vec<Measured> {
-        // What is thicker has no room for a wall of that thickness.
+        // A thicker body has no room for a wall of that thickness.
         let longest = self.size / (2.0 * SLENDER);
         let skin = SKIN * self.size;
         let ray = |t: usize, k: usize| -> Measured {
@@ -247,7 +247,7 @@ impl<'a> Faces<'a> {
 
     /// Margin of each triangle that belongs to a wall, m, without regard to supports.
     fn stretches(&self, along: &AlongSurface<'_>, bends: &[Option<Bend>]) -> Vec<Option<f64>> {
-        // Of the body's size, so that a larger body of the same shape has the same classes.
+        // In sizes of the body, so that a larger body of the same shape has the same classes.
         let class = |h: f64| ((h / self.size).ln() / CLASS.ln()).round() as i32;
         let mut classes: Vec<i32> = bends.iter().flatten().map(|b| class(b.thickness)).collect();
         classes.sort_unstable();
@@ -309,7 +309,7 @@ impl<'a> Faces<'a> {
         wide
     }
 
-    /// Distance of each triangle from what holds its wall, m: on either of its faces.
+    /// Distance of each triangle from the supports of its wall, m: on either of its faces.
     fn distances_from_supports(
         &self,
         along: &AlongSurface<'_>,
@@ -327,7 +327,7 @@ impl<'a> Faces<'a> {
         let mut sources = Vec::new();
         for t in (0..self.count()).filter(|&t| stretches[t].is_some()) {
             sources.extend(held(t));
-            // Two nodes: a side of the face behind, not a mere corner that it shares with what is held.
+            // Two nodes are a side of the face behind; one would be a corner only, which it shares with a supported face.
             if measured[t].is_some_and(|(_, behind)| held(behind as usize).count() >= 2) {
                 sources.extend(self.surface.triangles[t]);
             }

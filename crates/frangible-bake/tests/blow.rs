@@ -48,7 +48,7 @@ fn glass() -> &'static Asset {
     GLASS.get_or_init(|| baked(Shape::drinking_glass(), material("glass"), MODES, 1800.0))
 }
 
-/// A body that follows so many of its modes through time.
+/// A body that follows this number of its modes through time.
 fn following(asset: &Asset, modes: usize) -> Body {
     let mut asset = asset.clone();
     asset.modes.residual_modes = asset.modes.count() - modes;

@@ -1,4 +1,4 @@
-//! Fronts of cracks that a body has: what they say of a stress must be what fracture mechanics says.
+//! Fronts of the cracks in a body: their readings of a stress must agree with fracture mechanics.
 
 use crate::common::{breakable, whole};
 use frangible::glam::Vec3;
@@ -111,7 +111,7 @@ fn a_straight_crack_has_its_length_and_griffiths_strength() {
     }
 }
 
-/// In a bent bar the crack's front nears the middle, where nothing pulls before the crack is there: what it says is looked at
+/// In a bent bar the crack's front nears the middle, where nothing pulls before the crack is there: its readings are compared
 /// while it has come a third of the way.
 #[test]
 fn a_front_is_fed_with_what_the_modes_lose() {
@@ -120,7 +120,7 @@ fn a_front_is_fed_with_what_the_modes_lose() {
         .map(|layers| reading(&bar, layers as f32 * LAYER, 3000))
         .collect();
     for r in readings.windows(3) {
-        // Of ½ λ q² at fixed q, with the crack's area.
+        // Loss of ½ λ q² at fixed q, per area of the crack.
         let lost = 0.5 * (r[0][0] - r[2][0]) / (r[2][1] - r[0][1]);
         let ratio = r[1][2] / lost;
         assert!((0.2..1.5).contains(&ratio), "{ratio}");
@@ -146,7 +146,7 @@ fn cracking_speed(bar: &Body, config: &FractureConfig) -> f64 {
     range[1]
 }
 
-/// In the bar's own modes: with those it was baked with, a front in a bent bar sees less tension the longer its crack is.
+/// In the bar's own modes: with the modes of the bake, a front in a bent bar sees less tension the longer its crack is.
 #[test]
 fn a_cracked_bar_cracks_at_less() {
     let bar = bar();

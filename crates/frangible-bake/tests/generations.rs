@@ -1,4 +1,4 @@
-//! Pieces of pieces: they tile what broke, are closed, and keep what is theirs.
+//! Pieces of pieces: they tile the body that broke, are closed, and keep their weak points and cracks.
 
 use std::sync::Arc;
 

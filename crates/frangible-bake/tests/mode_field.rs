@@ -26,7 +26,7 @@ fn gradients(corners: [Vec3; 4]) -> [Vec3; 4] {
     [-(rows[0] + rows[1] + rows[2]), rows[0], rows[1], rows[2]]
 }
 
-/// A baked block, for what is not looked at.
+/// A baked block, for properties that the test does not look at.
 fn block() -> Asset {
     let glass = Material::preset("glass").expect("a preset");
     let spec = BakeSpec {

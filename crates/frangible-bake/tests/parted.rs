@@ -1,4 +1,4 @@
-//! Pieces that have parted during a blow: how they ring, what they weigh under a contact, and that energy and momentum are kept.
+//! Pieces that have parted during a blow: their vibration, their inertia under a contact, and the balance of energy and momentum.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -182,7 +182,7 @@ fn a_small_piece_that_is_hit_weighs_what_it_weighs() {
     );
     assert!(report.impulse < 1.1 * most && report.impulse > 0.8 * most);
     assert!(before > 1.2 * report.impulse);
-    // Its momentum against the whole: what it was given less its share of what the whole got.
+    // Its momentum against the whole: the momentum that it was given less its share of that of the whole.
     let mass = &asset.mass;
     let at = point.as_dvec3();
     let spin = mass.inertia.inverse() * at.cross(DVec3::NEG_Y * report.impulse);

@@ -142,7 +142,7 @@ fn near_points(a: &[Vec3], b: &[Vec3], what: &str) {
     }
 }
 
-/// Everything, but for the sign of a mode and what solver and f32 round.
+/// Compares everything, but for the sign of a mode and the rounding of solver and f32.
 fn assert_same(rescaled: &Asset, fresh: &Asset, what: &str) {
     rescaled.validate().unwrap();
     assert_eq!(rescaled.material, fresh.material, "{what}");
@@ -244,8 +244,8 @@ fn another_size_is_what_its_bake_gives() {
             let rescaled = scaled(&baked(kind, 1.0, &start()), factor).unwrap();
             let fresh = baked(kind, factor, &start());
             if kind == Kind::Glass {
-                // The walls of a vessel are meshed to tolerances in metres: the meshes differ, and only what they converge
-                // to is the same.
+                // The walls of a vessel are meshed to tolerances in metres: the meshes differ, and only the values to which they converge
+                // are the same.
                 near(rescaled.mass.mass, fresh.mass.mass, 1e-3, "mass");
                 let (ours, theirs) = (rescaled.modes.eigenvalues, fresh.modes.eigenvalues);
                 for (a, b) in ours.iter().zip(&theirs) {

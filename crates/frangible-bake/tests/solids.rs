@@ -175,7 +175,7 @@ fn every_ready_shape_bakes() {
         let Some(Shape::Solid(mut shape)) = Shape::ready(name) else {
             panic!("{name} is no solid");
         };
-        // Fewer lose the tips of the rabbit's ears; what asks for more than usual needs them.
+        // Fewer lose the tips of the rabbit's ears; a shape that asks for more than usual needs them.
         if shape.tets == SolidShape::new(shape.solid.clone()).tets {
             shape.tets = 16_000;
         }

@@ -245,7 +245,7 @@ fn no_mode_of_linear_tetrahedra_is_missed_or_doubled() {
         let system = assemble(&mesh.positions, Elements::Linear(&mesh.tets), &GLASS);
         check(&system, &free, 100, "linear tetrahedra");
     }
-    // What carries the cracks, irregular on purpose.
+    // The mesh that carries the cracks, irregular on purpose.
     let glass = Shape::drinking_glass();
     let size = MeshSize {
         edge: 0.008,

@@ -1,4 +1,4 @@
-//! Bodies that are held: against closed forms, and what becomes of the nodes.
+//! Bodies that are held: their modes against closed forms, and their held nodes.
 
 use std::f64::consts::{PI, TAU};
 
@@ -314,7 +314,7 @@ fn a_shelf_that_breaks_leaves_a_piece_in_the_wall() {
         restitution: 0.5,
         ..Striker::rigid()
     };
-    // Of a ball of 2 kg against what does not give way.
+    // Impulse of a ball of 2 kg against a body that does not give way.
     let impulse = |speed: f32| 1.5 * 2.0 * speed;
     let point = Vec3::new(0.09, 0.0, 0.005);
     let hit = |speed| Contact::new(point, Vec3::NEG_Z, impulse(speed), speed, striker.clone());

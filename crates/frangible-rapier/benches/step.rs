@@ -117,7 +117,7 @@ fn steps(c: &mut Criterion) {
     group.finish();
 }
 
-/// Blocks in pairs, one on the other, that never sleep; whether they are asked what they carry.
+/// Blocks in pairs, one on the other, that never sleep. `asked`: whether their resting loads are looked at.
 fn pairs(count: usize, asked: bool) -> BreakableWorld {
     let mut config = WorldConfig::default();
     config.gravity = Vector::new(0.0, 0.0, -9.81);

@@ -1,4 +1,4 @@
-//! A blow on a plate without an engine: question, blow, and what it left. `cargo run --release -p frangible-rapier --example by_hand`.
+//! A blow on a plate without an engine: question, blow, and outcome. `cargo run --release -p frangible-rapier --example by_hand`.
 
 use std::error::Error;
 

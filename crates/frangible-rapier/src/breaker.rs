@@ -1,10 +1,10 @@
 //! Breaking bodies in a world that is the game's own.
 //!
 //! A game has Rapier's sets and pipeline already, with its own bodies, joints, hooks and events in them. A [`Breaker`] holds only what
-//! Rapier does not know: which bodies can break, of what they are, and what cracks they have. For the length of a call it borrows the
+//! Rapier does not know: which bodies can break, their assets, and their cracks. For the length of a call it borrows the
 //! game's sets ([`Sets`]) and works on them as a [`BreakableWorld`] works on its own; in between it holds none of them.
 //!
-//! The borrowed sets are swapped in and out, some hundred bytes each. They go back even where a hook or an event handler of the game
+//! The borrowed sets are swapped in and out, some hundred bytes each. They go back even if a hook or an event handler of the game
 //! panics.
 
 use rapier3d::dynamics::{

@@ -29,7 +29,7 @@ impl Callbacks<'_> {
     };
 }
 
-/// The caller's hooks first, then ours on what they leave.
+/// The caller's hooks first, then those of this crate on the result.
 pub(crate) struct Hooks<'a> {
     pub(crate) own: &'a dyn PhysicsHooks,
     pub(crate) siblings: &'a Siblings,

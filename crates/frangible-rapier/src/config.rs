@@ -5,7 +5,7 @@ use rapier3d::math::Vector;
 
 use crate::error::{WorldError, finite, not_negative, positive};
 
-/// When a body that breaks gives way to its fragments.
+/// Moment at which a body that breaks gives way to its fragments.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Breaking {
@@ -23,8 +23,8 @@ pub enum Breaking {
         /// at least. The others wait in the order of their blows, and stay whole until then: they collide as whole bodies
         /// do, and of several blows while one waits the hardest counts. `usize::MAX`: none waits.
         budget: usize,
-        /// Steps that the fracture has for it on other threads while the world goes on; then the world waits for what is not
-        /// ready, so that a body breaks in the same step however fast the machine is. 0: at once, inside
+        /// Steps for which other threads may compute a break while the world goes on; then the world waits for unfinished breaks,
+        /// so that a body breaks in the same step however fast the machine is. 0: at once, inside
         /// [`step`](crate::BreakableWorld::step).
         delay: usize,
     },
@@ -90,13 +90,13 @@ pub enum AtRest {
     Sleep,
     /// They become fixed: nothing moves them any more, and nothing has to be solved for them. They break again as others do.
     Freeze,
-    /// Those of one body become one fixed body, its rubble, with one compound collider: see [`merged`](crate::BreakableWorld::merged). A copy of
+    /// Pieces of one body become one fixed body, its rubble, with one compound collider: see [`merged`](crate::BreakableWorld::merged). A copy of
     /// the world, its broad phase and its contacts have that collider in the place of all of theirs, and they do not count for
-    /// [`WorldConfig::max_bodies`]. What can break and may be hit at [`WorldConfig::impact_speed`] or more comes loose before the step that hits
-    /// it, with what lies on it; the others stay where they are, as the floor does. A rubble has the surface, the collision groups and the user
-    /// data of its first piece. Pieces that lie on what can move, or on a held body that can break, go on sleeping.
+    /// [`WorldConfig::max_bodies`]. A piece that can break and may be hit at [`WorldConfig::impact_speed`] or more comes loose before the step that
+    /// hits it, with those that lie on it; the others stay where they are, as the floor does. A rubble has the surface, the collision groups and the
+    /// user data of its first piece. Pieces that lie on a body that can move, or on a held body that can break, go on sleeping.
     Merge,
-    /// They go.
+    /// They are removed.
     Go,
 }
 
@@ -133,7 +133,7 @@ pub struct WorldConfig {
     /// Distance ahead of a contact's normal at which the pressure of a rolling body acts, m: the torque of rolling resistance is
     /// this × normal force. Default 5e-4: rough stone, dust. Zero: things roll for ever.
     pub rolling_arm: f32,
-    /// A body of which no point moves farther than this for 0.4 s while it touches something is at rest, m.
+    /// Drift at most of a body at rest, m: none of its points moves farther than this for 0.4 s while it touches something.
     /// Default 3e-3 (7.5 mm/s; Rapier alone asks for 40 mm/s, but in every step). Zero leaves sleep to Rapier alone.
     pub rest_drift: f32,
     /// A joint of a broken body moves to the nearest fragment within this distance of its anchor, m; else it is
@@ -162,7 +162,7 @@ pub struct WorldConfig {
     pub max_bodies: usize,
     /// Ask after every step what bodies carry, and break those that carry too much. Default on.
     pub resting_loads: bool,
-    /// When a body gives way to its fragments. Default inside the step.
+    /// Moment at which a body gives way to its fragments. Default inside the step.
     pub breaking: Breaking,
     /// Settings for fragments that break again, if the world has a [model of how they vibrate](crate::BreakableWorld::set_piece_model).
     pub pieces: PieceConfig,

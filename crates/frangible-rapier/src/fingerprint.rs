@@ -7,9 +7,9 @@ const START: u64 = 0xcbf2_9ce4_8422_2325;
 const FACTOR: u64 = 0x0100_0000_01b3;
 
 impl BreakableWorld {
-    /// A number of the bits of where all bodies are, how they move and what they weigh. Worlds in which one of these bits differs have
+    /// A number computed from the bits of the poses, velocities and masses of all bodies. Worlds in which one of these bits differs have
     /// other numbers, but for one chance in 2⁶⁴; worlds that were stepped alike have the same one, on any machine
-    /// where the feature `portable` is on.
+    /// if the feature `portable` is on.
     #[must_use]
     pub fn fingerprint(&self) -> u64 {
         let mut hash = START;

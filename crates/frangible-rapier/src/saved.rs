@@ -31,7 +31,7 @@ impl BreakableWorld {
         }
     }
 
-    /// Goes back to a state of this world: from there on it does what it did then, bit for bit.
+    /// Goes back to a state of this world: from there on it steps as it did then, bit for bit.
     pub fn restore(&mut self, saved: &SavedWorld) {
         saved
             .snapshot

@@ -47,17 +47,17 @@ impl Queue {
     }
 }
 
-/// The threads, and what they have to do.
+/// Threads, and their jobs.
 #[derive(Default)]
 pub(crate) struct Workshop {
-    /// None before the first job; inside, none where no thread can be had.
+    /// None before the first job; inside, none if no thread can be started.
     pool: Option<Option<ThreadPool>>,
     queue: Arc<Mutex<Queue>>,
     count: u64,
 }
 
 impl Workshop {
-    /// Has a job done before the step `due`, as far as the threads come to it; here and now where there are none.
+    /// Has a job done before the step `due`, as far as the threads come to it; here and now if there are none.
     pub(crate) fn take(&mut self, length: Length, due: u64, job: impl FnOnce() + Send + 'static) {
         let make = || {
             let cores = std::thread::available_parallelism().map_or(1, usize::from);
@@ -78,7 +78,7 @@ impl Workshop {
             jobs.insert((due, self.count), Box::new(job));
         }
         let (queue, most) = (Arc::clone(&self.queue), pool.current_num_threads() - 1);
-        // Whoever ends a job looks for the next one, so that a long job that must wait here is found by those at long jobs.
+        // A thread that ends a job looks for the next one, so that a long job that must wait here is found by those at long jobs.
         pool.spawn_fifo(move || work(&queue, most));
     }
 }
@@ -88,7 +88,7 @@ fn work(queue: &Mutex<Queue>, most: usize) {
     loop {
         let next = locked(queue).next(most);
         let Some((length, job)) = next else { return };
-        // Whoever waits for a job that panics sees that its sender is gone; this thread has other jobs to do.
+        // If a job panics, the thread that waits for it sees that its sender is gone; this one has other jobs to do.
         let _ = catch_unwind(AssertUnwindSafe(job));
         if length == Length::Long {
             locked(queue).at_long -= 1;

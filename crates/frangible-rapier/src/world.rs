@@ -1,4 +1,4 @@
-//! The world: Rapier's sets, and what is breakable in them.
+//! The world: Rapier's sets, and the breakable bodies in them.
 
 use std::collections::{BTreeMap, VecDeque};
 
@@ -91,17 +91,17 @@ pub(crate) struct State {
     pub(crate) burdens: BTreeMap<Key, Burden>,
     pub(crate) pushes: Vec<Push>,
     pub(crate) debris: VecDeque<RigidBodyHandle>,
-    /// With the time when it was born, s.
+    /// Dust, with the time of its birth, s.
     pub(crate) dust: VecDeque<(RigidBodyHandle, f64)>,
-    /// With the time since when they go, s.
+    /// Pieces that fade, with the time at which they began to, s.
     pub(crate) fading: VecDeque<(RigidBodyHandle, f64)>,
-    /// Since when pieces sleep, s.
+    /// Time since when each piece sleeps, s.
     pub(crate) asleep: BTreeMap<Key, f64>,
     pub(crate) rubble: Rubbles,
     pub(crate) waiting: VecDeque<Waiting>,
-    /// In the order in which they are due.
+    /// Bodies being made, in the order in which they are due.
     pub(crate) expected: VecDeque<Expected>,
-    /// When all pieces that were asked for are expected to be ready at the [pace](crate::PieceConfig::pace), of either kind: number of the step.
+    /// Step at which all pieces asked for are expected to be ready at the [pace](crate::PieceConfig::pace), for either kind.
     pub(crate) pieces_ready: [f64; 2],
     pub(crate) motions: Motions,
     pub(crate) steps: u64,

@@ -27,7 +27,7 @@ fn momentum<'a>(bodies: impl Iterator<Item = &'a RigidBody>) -> Vector {
     bodies.map(|b| b.mass() * b.linvel()).sum()
 }
 
-/// A pane that is thrown down on its edge and what becomes of it in a second and a half.
+/// Throws a pane down on its edge, and records its breaks in a second and a half.
 fn fall(method: Option<Method>, change: impl Fn(&mut WorldConfig)) -> (Vec<Break>, Vec<[u32; 7]>) {
     let mut config = WorldConfig::default();
     config.dt = 1.0 / 960.0;
@@ -79,7 +79,7 @@ fn fall(method: Option<Method>, change: impl Fn(&mut WorldConfig)) -> (Vec<Break
                 masses: fragments.iter().map(|f| f.mass.mass.to_bits()).collect(),
                 parent_mass: f64::from(parent.mass()),
                 momentum: [momentum([parent].into_iter()), {
-                    // What the pieces would have at the motion of the parent.
+                    // The momentum that the pieces would have at the motion of the parent.
                     let spot = |f: &frangible::Fragment| {
                         let centre = *parent.position() * f.mass.centre.as_vec3();
                         f.mass.mass as f32 * parent.velocity_at_point(centre)
@@ -144,13 +144,13 @@ fn limits_hold() {
     // At a ten-thousandth of a thread nothing is ready in this time.
     let slow = fall(Some(Method::ParentModes), |c| c.pieces.pace = 1e-4);
     assert_eq!(slow.0.len(), 1);
-    // What the limits keep out is there without them.
+    // Pieces that the limits keep out are there without them.
     let deepest = |breaks: &[Break]| breaks.iter().map(|b| b.generation).max();
     let free = fall(Some(Method::ParentModes), |_| {});
     assert!(deepest(&free.0) >= Some(1), "{:?}", free.0);
 }
 
-/// The first frequency of a pane over what it was, once a hit has cracked it and parted nothing; none where it breaks at once.
+/// The first frequency of a pane over its former one, once a hit has cracked it and parted nothing; none if it breaks at once.
 fn cracked(seed: u64) -> Option<f64> {
     let mut config = WorldConfig::default();
     // In glass a crack runs until the body has parted; fed from the paper's depth γ it stops.

@@ -53,7 +53,7 @@ fn a_blow_asked_of_the_world_is_that_of_the_body_frame_and_of_the_step() {
     }
     assert!(broke > 0 && held > 0, "{broke} broke, {held} held");
 
-    // What it says of 20 m/s happens.
+    // The answer for 20 m/s comes true.
     let start = Pose::from_translation(place + 0.05 * Vector::X);
     let (steel, shot) = (SurfaceProperties::STEEL, -20.0 * Vector::X);
     let flying = Ball {

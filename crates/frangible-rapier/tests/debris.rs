@@ -50,7 +50,7 @@ fn debris_is_capped_and_the_oldest_goes_first() {
     world.step().unwrap();
 }
 
-/// The pieces of a slab that is shot over a floor, after so many seconds in which they came to rest.
+/// The pieces of a slab that is shot over a floor, after this time, s, in which they came to rest.
 fn rested(
     change: impl Fn(&mut WorldConfig),
     seconds: f32,

@@ -1,4 +1,4 @@
-//! Fragments take over what was the parent's: surface, groups, joints, neighbours.
+//! Fragments inherit from their parent: surface, groups, joints, neighbours.
 
 use crate::common::{at, body, box_asset, slicer, step_to_break, world};
 use frangible::glam::Vec3;

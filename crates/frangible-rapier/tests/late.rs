@@ -1,4 +1,4 @@
-//! Verdicts that come when the body is no longer what it was, or do not come at all.
+//! Verdicts that come when the body has changed, or do not come at all.
 
 use std::sync::mpsc::channel;
 use std::sync::{Arc, Mutex};

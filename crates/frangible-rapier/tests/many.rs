@@ -1,4 +1,4 @@
-//! Many bodies: breaks after the step within a budget, on any number of threads, and what is spared.
+//! Many bodies: breaks after the step within a budget, on any number of threads, and the work that is spared.
 
 use std::sync::Arc;
 
@@ -237,7 +237,7 @@ fn a_collider_has_no_more_parts_than_asked_for() {
             config.whole_collider = ColliderDetail { parts, hull_points };
         });
         let boxed = box_asset(HALF, CELLS);
-        // What fills less of its bounds is no box, whatever its cells.
+        // A body that fills less of its bounds is no box, whatever its cells.
         let mut hollow = (*boxed).clone();
         hollow.mass.volume *= 0.9;
         let [pane, hollow] = [boxed, Arc::new(hollow)].map(|asset| {

@@ -30,7 +30,7 @@ fn floor(at_rest: AtRest) -> BreakableWorld {
     world
 }
 
-/// Drops a slab flat, and returns its pieces once so many seconds have passed.
+/// Drops a slab flat, and returns its pieces after this time, s.
 fn drop_slab(
     world: &mut BreakableWorld,
     x: f32,
@@ -229,7 +229,7 @@ fn what_is_removed_leaves_the_rubble_and_what_is_let_move_comes_loose() {
     let second = world.physics.bodies.get_mut(pieces[1]).unwrap();
     second.set_body_type(RigidBodyType::Dynamic, true);
     world.step().unwrap();
-    // What lies on it, if only with an edge, comes loose as well.
+    // A piece that lies on it, if only with an edge, comes loose as well.
     let left = parts(&world).expect("a compound");
     assert!((PIECES - 4..PIECES - 1).contains(&left), "{left}");
     let own = world.physics.bodies[pieces[1]].colliders()[0];

@@ -4,8 +4,8 @@ use crate::common::at;
 use frangible_rapier::rapier3d::math::Vector;
 use frangible_rapier::{Ball, BreakableWorld, Mortar, SurfaceProperties, WorldConfig, WorldError};
 
-/// A ball of 1 kg bonded over 1 cm² to a block that does not move, above it (`side` 1) or below (−1); how many bonds are left after
-/// half a second, and how far the ball fell. `swap`: the ball is the first of the two.
+/// Drops a ball of 1 kg bonded over 1 cm² to a block that does not move, above it (`side` 1) or below (−1). Returns the number of bonds left after
+/// half a second, and the fall of the ball, m. `swap`: the ball is the first of the two.
 fn bonded(side: f32, strength: f32, swap: bool) -> (usize, f32) {
     let mut world = BreakableWorld::new(WorldConfig::default()).unwrap();
     let block = world

@@ -76,7 +76,7 @@ fn throw(world: &mut BreakableWorld, mass: f32, from: Pose, velocity: Vector) ->
         .unwrap()
 }
 
-/// Kinetic and potential energy, J; what is fixed counts with its height, as its pieces will.
+/// Kinetic and potential energy, J; a fixed body counts with its height, as its pieces will.
 fn energy(world: &BreakableWorld) -> f64 {
     let bodies = world.physics.bodies.iter().map(|(_, b)| b);
     let height = |b: &frangible_rapier::rapier3d::dynamics::RigidBody| {

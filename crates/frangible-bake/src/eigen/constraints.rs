@@ -46,8 +46,8 @@ impl Constraints {
     /// [`rigid_motions`](super::rigid_motions) about `centre`; `None` for a body that nothing holds. `reach`: how far the
     /// body extends from there, m.
     ///
-    /// Rows of the constraints are made orthonormal, the one with the largest remainder first (QR with pivoting); what
-    /// is orthogonal to all of them is free.
+    /// Rows of the constraints are made orthonormal, the one with the largest remainder first (QR with pivoting); motions
+    /// orthogonal to all of them are free.
     pub(crate) fn free_motions(&self, centre: DVec3, reach: f64) -> Option<Vec<[f64; 6]>> {
         if self.places.is_empty() {
             return None;
@@ -73,7 +73,7 @@ impl Constraints {
         });
         let mut rest: Vec<[f64; 6]> = units.collect();
         for unit in &mut rest {
-            // Twice, as the first pass leaves rounding of the size of what it takes away.
+            // Twice, as the first pass leaves rounding of the size of the part that it takes away.
             for _ in 0..2 {
                 bound.iter().for_each(|b| take_out(unit, b));
             }

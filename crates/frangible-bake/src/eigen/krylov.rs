@@ -13,7 +13,7 @@ use crate::error::BakeError;
 use crate::phase::Phase;
 use crate::random;
 
-/// A column of a block of which the others leave less than this share asks for a second pass: each digit lost here is one
+/// Share of a column's size below which its part beside the other columns asks for a second pass: each digit lost here is one
 /// lost by orthogonality.
 const LITTLE: f64 = 1e-3;
 

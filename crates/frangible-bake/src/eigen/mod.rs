@@ -80,7 +80,7 @@ impl Accuracy {
         sums: Sums::Portable,
     };
 
-    /// True where the dense solver finds the modes of so many unknowns.
+    /// Returns true if the dense solver finds the modes of this number of unknowns.
     fn is_dense(&self, unknowns: usize, wanted: usize) -> bool {
         unknowns <= self.dense || wanted as f64 > unknowns as f64 * self.share
     }

@@ -38,7 +38,7 @@ pub(crate) fn refine(
     }
 }
 
-/// Up to eight vectors, one per lane.
+/// Refines up to eight vectors, one per lane.
 fn refine_panel(
     scaled: &SparseColMat<usize, f64>,
     metric: &Metric,

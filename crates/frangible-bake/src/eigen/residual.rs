@@ -18,7 +18,7 @@ pub fn residual(system: &System, eigenvalue: f64, shape: &[f64]) -> (f64, f64) {
     residual_of(system, None, eigenvalue, shape, LIMIT)
 }
 
-/// The residual over the unknowns that are left: what holds the others bears their forces.
+/// The residual over the free unknowns: the supports bear the forces on the others.
 fn residual_of(
     system: &System,
     reduction: Option<&Reduction>,

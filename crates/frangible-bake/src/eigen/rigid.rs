@@ -1,4 +1,4 @@
-//! The six motions that deform nothing: three translations, three rotations; and which of them supports leave.
+//! Rigid motions: three translations and three rotations, and those of them that supports leave.
 
 use frangible::glam::DVec3;
 

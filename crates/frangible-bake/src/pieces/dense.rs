@@ -1,11 +1,11 @@
-//! Small dense matrices on the calling thread alone: pieces are solved side by side, and their bits are not to depend on how
-//! many threads there are, nor on the machine.
+//! Small dense matrices on the calling thread alone: pieces are solved side by side, and their bits must not depend on the number of
+//! threads, nor on the machine.
 
 use crate::eigen::basis::Block;
 use crate::eigen::portable::{self, Entries, symmetric};
 use crate::pieces::PieceError;
 
-/// Why a matrix could not be solved, in the solver's words.
+/// Error of solving a matrix, in the solver's words.
 pub(crate) fn refused(reason: impl std::fmt::Debug) -> PieceError {
     PieceError::Factorization {
         reason: format!("{reason:?}"),

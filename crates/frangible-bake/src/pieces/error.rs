@@ -1,10 +1,10 @@
-//! Why a piece has no modes.
+//! Errors of finding the modes of a piece.
 
 use crate::BakeError;
 use frangible::InputError;
 use thiserror::Error;
 
-/// Why a piece cannot be made to vibrate: it stays in one piece then.
+/// Error of finding the modes of a piece: it does not break again then.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum PieceError {

@@ -55,7 +55,7 @@ impl Pieces {
         }
     }
 
-    /// Quadratic elements of a piece of so many uncut tetrahedra, about: [`Pieces::elements`], or 300 up to 2000
+    /// Quadratic elements of a piece of this number of uncut tetrahedra, about: [`Pieces::elements`], or 300 up to 2000
     /// tetrahedra and more with the root of their number from there, up to 1000. A large piece is a large part of a body: its
     /// walls bend and turn more often from end to end, and on 300 elements its frequencies are 10 % too high in the median.
     #[must_use]

@@ -162,11 +162,11 @@ fn integrals(
     let m = trial.columns();
     let (mut stiffness, mut mass) = (Block::zeros(m, m), Block::zeros(m, m));
     let mesh = &portion.root().fracture;
-    // Of many tetrahedra some: the shapes vary over the coarse elements only.
+    // Some tetrahedra stand for many: the shapes vary over the coarse elements only.
     // One of each run, but not always the same: meshes repeat themselves every few tetrahedra.
     let stride = tets.len().div_ceil(SAMPLES).max(1);
     let scattered = |first: usize| {
-        // In 64 bits also where addresses have 32.
+        // In 64 bits, also where addresses have 32.
         let number = ((first / stride) as u64).wrapping_mul(0x9e37_79b9) >> 7;
         (number % stride as u64) as usize
     };

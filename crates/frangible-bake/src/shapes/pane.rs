@@ -44,7 +44,7 @@ impl PaneShape {
         self.validate()?;
         let [width, depth, thickness] = self.size;
         let missing = (4.0 - PI) * self.corner * self.corner;
-        // What the bow makes longer is longer between the corners as well.
+        // The bow stretches the pane between the corners as well.
         let stretch = |i: usize| {
             let x = (i as f64 + 0.5) / SLICES as f64 * width;
             self.slope(x).hypot(1.0)
@@ -75,7 +75,7 @@ impl PaneShape {
         if radius <= 0.0 {
             return at;
         }
-        // How far beyond the middle of its corner's circle the place is, along each side.
+        // Distance of the place beyond the middle of its corner's circle, along each side.
         let beyond = [0, 1].map(|k| {
             let middle = 0.5 * self.size[k];
             let from = at[k] - middle;

@@ -188,7 +188,7 @@ fn bands(profile: &Profile) -> Vec<f64> {
     for i in 1..samples.len() {
         let (p, q) = (profile.middle(samples[start]), profile.middle(samples[i]));
         let bulge = if start == 0 {
-            // The bottom cell turns about the axis: what counts is how far it is from level.
+            // The bottom cell turns about the axis: its bulge is its deviation from level.
             (start..=i)
                 .map(|k| (profile.middle(samples[k])[1] - p[1]).abs())
                 .fold(0.0, f64::max)

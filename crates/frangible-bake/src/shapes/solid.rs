@@ -56,7 +56,7 @@ impl SolidShape {
     }
 }
 
-/// A ready solid; the thickness of its walls is what was measured on it.
+/// A ready solid; the thickness of its walls was measured on it.
 pub(crate) fn ready(name: &str) -> Option<SolidShape> {
     let solid = Arc::new(frangible_mesh::ready_shape(name)?);
     let wall = match name {

@@ -13,7 +13,7 @@ use frangible::{Asset, InputError};
 pub use paint::{Channel, Paint, from_paint};
 pub use zone::{Patch, Zone};
 
-/// Fields painted by patches, one over the other: what a later one names replaces what is below.
+/// Fields painted by patches, one over the other: a factor of a later patch replaces those below.
 ///
 /// A tetrahedron belongs to a patch when its centre does; a scored line needs a radius of about the fracture mesh's
 /// edge to hang together.
@@ -24,10 +24,10 @@ pub fn from_patches(asset: &Asset, patches: &[Patch]) -> Result<Fields, InputErr
     patched(Fields::default(), asset, patches)
 }
 
-/// Fields with patches over what is there, see [`from_patches`].
+/// Fields with patches over those given, see [`from_patches`].
 ///
 /// # Errors
-/// What [`from_patches`] refuses.
+/// As [`from_patches`].
 pub fn patched(mut fields: Fields, asset: &Asset, patches: &[Patch]) -> Result<Fields, InputError> {
     patches.iter().try_for_each(|p| p.zone.check())?;
     if patches.is_empty() {
@@ -45,10 +45,10 @@ pub fn patched(mut fields: Fields, asset: &Asset, patches: &[Patch]) -> Result<F
 }
 
 /// Fields painted on the vertices of a surface (m, body frame): each tetrahedron takes the paint of the nearest point of it.
-/// `factors` makes of a vertex's number what its colour, or whatever it holds, means.
+/// `factors` gives the factors that the colour, or other value, of a vertex stands for, by the vertex's number.
 ///
 /// # Errors
-/// What [`Fields::from_surface`] refuses.
+/// As [`Fields::from_surface`].
 pub fn from_vertices(
     asset: &Asset,
     positions: &[Vec3],

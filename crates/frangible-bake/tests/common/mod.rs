@@ -10,7 +10,7 @@ use frangible_bake::eigen::{Constraints, Modes, lowest_modes, lowest_supported_m
 use frangible_bake::fem::System;
 use frangible_bake::{BakeSpec, MeshSize, Shape, bake};
 
-/// A baked shape of about so many fracture tetrahedra.
+/// A baked shape of about this number of fracture tetrahedra.
 pub(crate) fn breakable(shape: Shape, material: &str, tets: f64, modes: usize) -> Breakable {
     let fracture: MeshSize = shape.size_for(tets).expect("a size");
     let spec = BakeSpec {
@@ -33,7 +33,7 @@ pub(crate) fn free_modes(system: &System, wanted: usize) -> Modes {
     lowest_modes(system, wanted, &mut |_| ControlFlow::Continue(())).unwrap()
 }
 
-/// The lowest modes of what is held.
+/// The lowest modes of a held system.
 pub(crate) fn held_modes(system: &System, constraints: &Constraints, wanted: usize) -> Modes {
     let progress = &mut |_| ControlFlow::Continue(());
     lowest_supported_modes(system, constraints, wanted, progress).unwrap()

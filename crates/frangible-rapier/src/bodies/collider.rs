@@ -85,7 +85,7 @@ fn hull(points: &[Vector], detail: ColliderDetail) -> Option<(SharedShape, f64)>
             volume += at(apex).dot(at(pair[0]).cross(at(pair[1]))) / 6.0;
         }
     }
-    // Flat hulls make contacts with random normals; what has no volume is no collider.
+    // Flat hulls make contacts with random normals; a hull without volume is no collider.
     (volume.is_finite() && volume > 1e-15).then_some((shape, volume))
 }
 

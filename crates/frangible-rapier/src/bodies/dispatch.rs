@@ -24,7 +24,7 @@ type Manifold = ContactManifold<ContactManifoldData, ContactData>;
 /// faces instead of its lowest corners, so that it sinks in and rocks for ever. And its tolerances suit bodies of a metre: of a piece of
 /// some millimetres and another one, a ball or a cylinder it may tell that they overlap by as much as their thickness, or do not touch.
 /// Here half-spaces touch polyhedra with their lowest corners, and contacts of polyhedra with other convex shapes, the parts of compounds and
-/// the triangles of meshes and height fields among them, are searched in units that suit them. All else is Parry's: voxels, and what has no
+/// the triangles of meshes and height fields among them, are searched in units that suit them. All else is Parry's: voxels, and shapes without a
 /// polyhedron. Lengths are in m.
 ///
 /// A [`BreakableWorld`](crate::BreakableWorld) has it. A world of your own gets it once, before its first step:
@@ -95,7 +95,7 @@ impl PersistentQueryDispatcher<ContactManifoldData, ContactData> for PieceContac
             ),
             (None, None) => {
                 manifolds.truncate(1);
-                // What was found of a compound before stands in the frames of its parts.
+                // Contacts that were found of a compound before stand in the frames of its parts.
                 manifolds.retain(|known| known.subshape_poses.is_none());
                 if manifolds.is_empty() {
                     manifolds.push(Manifold::new());

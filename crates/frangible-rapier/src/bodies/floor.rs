@@ -14,8 +14,8 @@ use rapier3d::parry::shape::{HalfSpace, PackedFeatureId, Shape};
 /// not by ones that hover inside the prediction distance.
 const HEIGHT_COST: f32 = 20.0;
 
-/// Corners this deep below the plane and deeper are alike, m: all of them touch, so that what has sunk is lifted by its widest base. Lifted by its
-/// lowest corner alone it turns about that, and goes on turning where it is. Rapier leaves what rests 0.1 mm deep.
+/// Depth below the plane from which on corners are alike, m: all of them touch, so that a sunken body is lifted by its widest base. Lifted by its
+/// lowest corner alone it turns about that, and goes on turning where it is. Rapier leaves resting bodies 0.1 mm deep.
 const SUNK: f32 = 3e-4;
 
 /// A corner that touched in the last step counts as farther by this, m, so that the base does not flicker between

@@ -210,7 +210,7 @@ impl BreakableWorld {
         let collider = ColliderBuilder::new(shape)
             .friction(surface.friction)
             .restitution(surface.restitution);
-        // The mass is the body's, whatever is said of the collider's.
+        // The mass is the body's, and the collider's own is not used.
         let collider = finish(collider).mass_properties(MassProperties::default());
         self.physics.insert_collider(collider, Some(handle));
         if let Some(body) = self.physics.bodies.get_mut(handle) {

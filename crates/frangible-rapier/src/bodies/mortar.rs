@@ -21,7 +21,7 @@ const MARK: u128 = 0x6d6f_7274_6172_0001 << 64;
 pub struct Mortar {
     /// Middle of the face, m, world.
     pub centre: Vector,
-    /// Normal of the face, from the first body to the second: what moves the second one that way pulls.
+    /// Normal of the face, from the first body to the second: a motion of the second one that way pulls.
     pub normal: Vector,
     /// Area of the face, m².
     pub area: f32,

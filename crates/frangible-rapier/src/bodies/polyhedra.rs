@@ -55,7 +55,7 @@ pub(crate) fn touch(
         );
     };
     let pair = Pair { pos12, a, b };
-    // What touches a ball does not turn with it, so that its contact is found anew each time.
+    // The contact of a body with a ball does not turn with the body, so that it is found anew each time.
     let ball = a.features.is_none() || b.features.is_none();
     if !ball && manifold.try_update_contacts(pos12) {
         return Ok(());
@@ -162,7 +162,7 @@ fn power_of_two(number: Real) -> Real {
     if power.is_normal() { power } else { 1.0 }
 }
 
-/// Two solids without their radii; what has no frame said is in that of the first.
+/// Two solids without their radii, in the frame of the first unless said otherwise.
 struct Pair<'a> {
     pos12: &'a Pose,
     a: Solid<'a>,
@@ -221,7 +221,7 @@ impl Pair<'_> {
         if gap > reach - ROUNDING {
             return Found::Apart(normal);
         }
-        // Of bodies that touch within some micrometres the points are right, if not the normal between them.
+        // If bodies touch within some micrometres the points are right, but not the normal between them.
         let points = closest.map(|(_, points)| points);
         let points = points.filter(|[near, far]| (far - near).length() <= 2.0 * ROUNDING);
         Found::Close {

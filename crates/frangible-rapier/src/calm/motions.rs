@@ -40,7 +40,7 @@ struct Motion {
 pub(crate) struct Motions(Vec<Option<Motion>>);
 
 impl Motions {
-    /// Forgets what was, and takes note of what is.
+    /// Replaces the motions of before by the present ones.
     pub(crate) fn note(&mut self, bodies: &RigidBodySet) {
         self.0.clear();
         for (handle, body) in bodies.iter().filter(|(_, b)| !b.is_fixed()) {

@@ -59,7 +59,7 @@ impl Places {
         }
     }
 
-    /// Lets sleep what stayed in its place; `drift` in m. Rapier puts a heap to sleep when all of it may: a body that
+    /// Lets bodies sleep that stayed in their place; `drift` in m. Rapier puts a heap to sleep when all of it may: a body that
     /// slept among moving ones would not be held up by the floor.
     pub(crate) fn rest(&mut self, physics: &mut PhysicsWorld, drift: f32) {
         let bodies = &physics.bodies;

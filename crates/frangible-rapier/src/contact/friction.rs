@@ -41,7 +41,7 @@ pub(crate) fn solver_friction(
             let total: f32 = group.map(|d| d.impulse).sum();
             let substeps = parameters.num_solver_iterations as f32;
             let whole = shared * (substeps * data.impulse / total);
-            // Where nothing slides Rapier divides zero by zero.
+            // If nothing slides, Rapier divides zero by zero.
             if !whole.is_finite() {
                 return Vector::ZERO;
             }

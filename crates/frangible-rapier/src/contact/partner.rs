@@ -1,4 +1,4 @@
-//! The body on the other side of a contact: what it strikes with, how it gives way, and how it vibrates when it can break too.
+//! The body on the other side of a contact: its mass and surface as a striker, and its vibration when it can break too.
 
 use frangible::internals::contact::{SharedMass, answer_duration};
 use frangible::internals::{DurationModel, is_harmless};
@@ -101,7 +101,7 @@ pub(super) fn answer(
             ..contact.clone()
         };
         if integrated {
-            // What it refuses is wrong with the contact itself, which the impact says.
+            // An error of this is one of the contact itself, which the impact reports.
             if let Ok(flexible) = Striker::flexible(other, &mirrored, config) {
                 contact.striker.curvature_radius = flexible.curvature_radius;
                 contact.striker.receptance = flexible.receptance;

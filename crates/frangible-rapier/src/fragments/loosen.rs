@@ -1,4 +1,4 @@
-//! Merged pieces that come loose: those that can break and lie in the way of something fast, and what lies on them.
+//! Merged pieces that come loose: those that can break and lie in the way of something fast, and those that lie on them.
 //!
 //! A piece in a rubble has no contacts of its own that could be judged. So before the step that may hit it, it becomes a body again, and
 //! the step is one like any other. Pieces that cannot break stay where they are, as the floor does.
@@ -38,7 +38,7 @@ impl BreakableWorld {
         let bodies = &self.physics.bodies;
         // The step itself makes a body that falls faster.
         let speed = self.config.impact_speed - self.physics.gravity.length() * self.config.dt;
-        // What it may hit is fixed. Chips break nothing.
+        // The bodies that it may hit are fixed. Chips break nothing.
         let counts = |(handle, body): &(RigidBodyHandle, &RigidBody)| {
             moves(body)
                 && is_fast(body, speed)

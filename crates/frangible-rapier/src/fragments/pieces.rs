@@ -1,9 +1,9 @@
-//! Fragments that break again: how they vibrate is found on other threads, and joined at a fixed step.
+//! Fragments that break again: their modes are found on other threads, and joined at a fixed step.
 //!
 //! A newborn fragment is a plain body: the blow that runs through it is the one that has just made it. From
-//! [`PieceConfig::delay`] on it is breakable with what the model has at once, from [`PieceConfig::later`] on with what takes
-//! longer; with a [`PieceConfig::pace`], when a thread that works so much is expected to have come to it. What is not ready then is waited
-//! for, so that nothing hangs on the speed of the machine.
+//! [`PieceConfig::delay`] on it is breakable with the modes that the model has at once, from [`PieceConfig::later`] on with those that take
+//! longer; with a [`PieceConfig::pace`], when a thread of that pace is expected to have come to it. Unfinished modes are then waited
+//! for, so that no result depends on the speed of the machine.
 
 use std::sync::mpsc::{Receiver, channel};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -64,7 +64,7 @@ impl BreakableWorld {
         self.piece_model = model;
     }
 
-    /// Has the fragments of a body that broke made breakable.
+    /// Asks for breakable bodies in the place of the fragments of a body that broke.
     pub(crate) fn expect_pieces(&mut self, body: &Body, broken: &Broken) {
         let Some(model) = self.piece_model.clone() else {
             return;
@@ -75,7 +75,7 @@ impl BreakableWorld {
         }
         let least = f64::from(limits.least_mass);
         let heavy = move |_: usize, fragment: &Fragment| fragment.mass.mass >= least;
-        // Which part of the body each fragment is takes a while: whoever needs it first finds it.
+        // Finding each fragment's part of the body takes a while: it is done once, by the first that needs it.
         let portions = Arc::new(OnceLock::new());
         let portion = |number: usize| {
             let (portions, fracture) = (Arc::clone(&portions), Arc::clone(&broken.fracture));
@@ -110,7 +110,7 @@ impl BreakableWorld {
         }
     }
 
-    /// Has new modes found for a body that is cracked but whole.
+    /// Asks for new modes of a body that is cracked but whole.
     pub(crate) fn expect_weaker(&mut self, handle: RigidBodyHandle) {
         let (Some(model), Some(body)) = (
             self.piece_model
@@ -130,7 +130,7 @@ impl BreakableWorld {
         });
     }
 
-    /// The step in which a body of so many tetrahedra that is asked for now is due.
+    /// The step in which a body of this number of tetrahedra that is asked for now is due.
     fn due(&mut self, kind: Kind, tets: usize) -> u64 {
         let limits = &self.config.pieces;
         let (delay, at) = match kind {
@@ -146,7 +146,7 @@ impl BreakableWorld {
         soonest.max(ready.ceil() as u64)
     }
 
-    /// Has a body made on another thread; it joins the world in the step `due`.
+    /// Makes a body on another thread; it joins the world in the step `due`.
     fn promise(
         &mut self,
         length: Length,
@@ -157,7 +157,7 @@ impl BreakableWorld {
     ) {
         let (sender, body) = channel();
         self.workshop.take(length, due, move || {
-            // Nobody hears it when the world is gone.
+            // Sending fails only when the world is gone.
             let _ = sender.send(make());
         });
         let body = Arc::new(Mutex::new(Made::Soon(body)));
@@ -171,7 +171,7 @@ impl BreakableWorld {
         self.state.expected.insert(after, expected);
     }
 
-    /// Lets those join that are due. Waits for those that are not ready.
+    /// Lets the bodies that are due join the world. Waits for those that are not ready.
     pub(crate) fn join_pieces(&mut self) {
         while let Some(expected) = self
             .state

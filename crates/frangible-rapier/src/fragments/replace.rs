@@ -22,7 +22,7 @@ pub(crate) struct Parts {
 }
 
 struct Part {
-    /// None of dust.
+    /// Collider; dust has none.
     shape: Option<SharedShape>,
     mass: MassProperties,
     /// Centre of mass, in the parent's frame, m.
@@ -127,7 +127,7 @@ impl BreakableWorld {
             .reduce(|a, b| a.merged(&b))
     }
 
-    /// Wakes what may have leaned on, or hung from, the body that is gone.
+    /// Wakes bodies that may have leaned on, or hung from, the body that is gone.
     fn wake_around(&mut self, bounds: Option<Aabb>) {
         let Some(bounds) = bounds else { return };
         let bounds =

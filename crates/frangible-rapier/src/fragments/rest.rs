@@ -10,17 +10,17 @@ use crate::world::{BreakableWorld, Key, key};
 /// Steps over which their time is averaged.
 const STEPS: f64 = 32.0;
 
-/// Time between two looks at what can be merged, s.
+/// Time between two looks for pieces to merge, s.
 const MERGE_TIME: f64 = 0.1;
 
 /// A contact whose normal points down by more than this, as the sine of an angle, presses on a piece from above and does not carry it.
 const FROM_ABOVE: f32 = -0.5;
 
-/// One in so many pieces of debris goes in each step that is too long.
+/// While steps take too long, one in this number of pieces of debris goes in each.
 const SHARE: usize = 50;
 
 impl BreakableWorld {
-    /// Pieces that go, with what is left of their size as one that shows them shrinks them: from 1 to 0 within
+    /// Pieces that fade, with the share of their size at which they are to be drawn: from 1 to 0 within
     /// [`WorldConfig::fade_time`](crate::WorldConfig::fade_time). They have no collider and do not move.
     pub fn fading(&self) -> impl Iterator<Item = (RigidBodyHandle, f32)> {
         let (now, time) = (self.time(), f64::from(self.config.fade_time));
@@ -140,7 +140,7 @@ impl BreakableWorld {
         })
     }
 
-    /// Lets a piece go: at once, or it is no body any more and fades.
+    /// Removes a piece: at once, or as one without colliders that fades.
     pub(crate) fn let_go(&mut self, handle: RigidBodyHandle) {
         self.loosen_with_load(vec![handle]);
         self.state.surfaces.remove(&key(handle));
@@ -161,7 +161,7 @@ impl BreakableWorld {
         self.state.fading.push_back((handle, now));
     }
 
-    /// Removes what has faded.
+    /// Removes pieces that have faded.
     pub(crate) fn fade(&mut self) {
         let (now, time) = (self.time(), f64::from(self.config.fade_time));
         let faded = |&mut (_, since): &mut (RigidBodyHandle, f64)| now - since >= time;

@@ -16,7 +16,7 @@ const NEWBORN_STEPS: u64 = 2;
 #[derive(Clone, Copy, Debug)]
 struct Birth {
     handle: RigidBodyHandle,
-    /// Number of the body that broke; [`RUBBLE`] of what is pieces of several.
+    /// Number of the body that broke; [`RUBBLE`] for a rubble.
     parent: u64,
     /// Number of the body that was no piece yet, from which it comes.
     origin: u64,
@@ -39,7 +39,7 @@ pub(crate) struct Siblings {
 }
 
 impl Siblings {
-    /// These bodies are the fragments of one parent, born in the current step.
+    /// Notes that these bodies are the fragments of one parent, born in the current step.
     pub(crate) fn born(&mut self, parent: RigidBodyHandle, fragments: &[RigidBodyHandle]) {
         self.parents += 1;
         let origin = self.origin(parent).unwrap_or(self.parents);

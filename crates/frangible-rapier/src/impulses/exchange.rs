@@ -286,13 +286,13 @@ impl Push<'_> {
 /// The two sides of a meeting as they are now, and their centres of mass when they met.
 struct Pair {
     sides: [Plain; 2],
-    /// Each side as one body.
+    /// Each side as one rigid body.
     wholes: [Rigid; 2],
     centres: [DVec3; 2],
 }
 
 impl Pair {
-    /// Both bodies whole. None where the one that was asked is gone.
+    /// The present state of both bodies as wholes. None if the one that was asked is gone.
     fn now(bodies: &RigidBodySet, meeting: &Meeting, before: &impl Before) -> Option<Self> {
         let partner: Vec<RigidBodyHandle> = meeting.partner.into_iter().collect();
         bodies.get(meeting.body)?;

@@ -6,7 +6,7 @@ use rapier3d::dynamics::{RigidBody, RigidBodyHandle, RigidBodySet, RigidBodyVelo
 
 use crate::impulses::motion::{centre, world_inertia};
 
-/// A body as plain numbers. Locked axes do not give way, and what is not dynamic is moved by nothing.
+/// A body as plain numbers. Locked axes do not give way, and nothing moves a body that is not dynamic.
 pub(crate) fn plain(body: &RigidBody) -> Rigid {
     let motion = [
         centre(body),
@@ -37,7 +37,7 @@ pub(crate) struct Plain {
 }
 
 impl Plain {
-    /// Those that are there.
+    /// Takes the bodies of these handles that exist.
     pub(crate) fn of(set: &RigidBodySet, handles: &[RigidBodyHandle]) -> Self {
         let there = handles
             .iter()
@@ -46,7 +46,7 @@ impl Plain {
         Self { handles, bodies }
     }
 
-    /// Gives the bodies their velocities, and wakes those that move otherwise than before.
+    /// Sets the bodies' velocities, and wakes those that move otherwise than before.
     pub(crate) fn put_back(&self, set: &mut RigidBodySet) {
         for (&handle, body) in self.handles.iter().zip(&self.bodies) {
             let velocity = RigidBodyVelocity {
@@ -63,7 +63,7 @@ impl Plain {
     }
 }
 
-/// Takes up to `energy` J from the motion of fragments and strikers against each other; returns what was taken, J.
+/// Takes up to `energy` J from the motion of fragments and strikers against each other. Returns the energy taken, J.
 pub(crate) fn take_energy(
     set: &mut RigidBodySet,
     fragments: &[RigidBodyHandle],

@@ -39,7 +39,7 @@ pub(crate) struct Broken {
     pub(crate) lost: f64,
 }
 
-/// Bodies that pushed each other in a step: each before it, and what has become of it.
+/// Bodies that pushed each other in a step: each before it, with its pieces after it.
 #[derive(Default)]
 struct Group {
     members: Vec<(RigidBodyHandle, Vec<RigidBodyHandle>)>,
@@ -126,7 +126,7 @@ impl BreakableWorld {
                 recorded.push(group);
             }
         }
-        // Bodies that broke each other pay one after the other: what is left is known only now.
+        // Bodies that broke each other pay one after the other: the energy left is known only now.
         for (event, group) in self.events[first..].iter_mut().zip(recorded) {
             let group = &groups[group];
             [event.kinetic_before, event.work] = group.brought;
@@ -165,7 +165,7 @@ impl BreakableWorld {
                 let met = met.filter(|&(_, b)| b == handle).map(|(a, _)| a);
                 let touching = now.iter().flat_map(|&h| self.pushed_with(h));
                 for other in met.chain(touching).map(was) {
-                    // What stands still for good passes nothing on.
+                    // A fixed body passes nothing on.
                     let there = self.physics.bodies.get(other);
                     let moves = there.is_none_or(RigidBody::is_dynamic);
                     if seen.insert(key(other)) && moves {
@@ -248,7 +248,7 @@ impl BreakableWorld {
             if body.is_dynamic() {
                 return fall(body, body.linvel());
             }
-            // Fragments of what was held begin their fall with the step.
+            // Fragments of a held body begin their fall with the step.
             let bodies = pieces.iter().filter_map(|&h| self.physics.bodies.get(h));
             let loose = bodies.filter(|b| b.is_dynamic());
             loose.map(|b| fall(b, Vector::ZERO)).sum()

@@ -1,5 +1,5 @@
 //! Loads that are no contact: blasts and scripted blows. They act at the beginning of the next step, before it moves
-//! anything: what breaks is replaced at once, and what was pushed goes on from there.
+//! anything: a body that breaks is replaced at once, and a body that was pushed goes on from there.
 //!
 //! A blast pushes every dynamic body too. Of a breakable body, and of its fragments, the outer triangles that face the
 //! origin are lit, each with the impulse per area of [`frangible::internals::Blast`]; hidden crack faces are not. Of any other body
@@ -99,7 +99,7 @@ impl BreakableWorld {
         Ok(())
     }
 
-    /// Lets the waiting loads act.
+    /// Applies the waiting loads.
     pub(crate) fn apply_pushes(&mut self) -> Result<(), WorldError> {
         let mut error = Ok(());
         for push in std::mem::take(&mut self.state.pushes) {

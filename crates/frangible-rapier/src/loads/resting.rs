@@ -45,7 +45,7 @@ const OVERLAP: f32 = 0.2;
 /// from the forces changes little (Saint-Venant); their sum stays, and so does their moment where they are parallel.
 const MOST_FORCES: usize = 16;
 
-/// A body that carries at most so much less than it could, by a bound that costs next to nothing, is not looked at closer.
+/// Safety factor, by a bound that costs next to nothing, from which on a body is not looked at closer.
 const EASE: f64 = 1.5;
 
 /// Load of a body: forces of its resting contacts, and gravity.
@@ -170,14 +170,14 @@ impl BreakableWorld {
         self.state.burdens.get(&key(handle)).map(|b| b.margin)
     }
 
-    /// No load is known any more: something but the load has changed.
+    /// Forgets all loads: something but the load has changed.
     pub(crate) fn weigh_anew(&mut self) {
         for burden in self.state.burdens.values_mut() {
             burden.load.gravity = Vec3::NAN;
         }
     }
 
-    /// Nothing is known of this one's load any more.
+    /// Forgets the load of one body.
     pub(crate) fn weigh_anew_one(&mut self, handle: RigidBodyHandle) {
         if let Some(burden) = self.state.burdens.get_mut(&key(handle)) {
             burden.load.gravity = Vec3::NAN;
@@ -190,7 +190,7 @@ impl BreakableWorld {
         self.config.resting_loads && self.state.steps.is_multiple_of((stride as u64).max(1))
     }
 
-    /// Bodies that the coming step may break by what they carry.
+    /// Bodies that the coming step may break by their load.
     pub(crate) fn overloaded(&self) -> impl Iterator<Item = RigidBodyHandle> {
         let over = self
             .state
@@ -262,7 +262,7 @@ impl BreakableWorld {
             let burden = burdens.entry(key(handle)).or_default();
             burden.hard = match (margin >= EASE, known) {
                 (true, _) => 0,
-                // Its first load is looked at whatever it is.
+                // The first load of a body is looked at in any case.
                 (false, false) => STEADY,
                 (false, true) => burden.hard.saturating_add(1),
             };
@@ -331,7 +331,7 @@ impl BreakableWorld {
                 let report = outcome.report();
                 burden.margin = (report.strength / report.stress_bound).min(1.0);
                 burden.over += 1;
-                // It should have broken in this step: there was no room for its fragments.
+                // The body should have broken in this step: there was no room for its fragments.
                 if burden.over > STEADY {
                     (burden.over, burden.pause) = (0, PAUSE);
                 }

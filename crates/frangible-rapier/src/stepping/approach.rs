@@ -12,7 +12,7 @@ use rapier3d::pipeline::PhysicsWorld;
 use crate::world::{BreakableWorld, key};
 
 impl BreakableWorld {
-    /// Breakable bodies that may be hit hard enough to be looked at, or give way to what they carry, within so many seconds:
+    /// Breakable bodies that may be hit hard enough to be looked at, or give way to their load, within this time, s:
     /// as long as there are none, steps may be coarse.
     pub fn near_within(&mut self, seconds: f32) -> Vec<RigidBodyHandle> {
         let dt = std::mem::replace(&mut self.physics.integration_parameters.dt, seconds);
@@ -21,7 +21,7 @@ impl BreakableWorld {
         near
     }
 
-    /// Breakable bodies that may be hit in the coming step, or break under what they carry; in the order of handles.
+    /// Breakable bodies that may be hit in the coming step, or break under their load; in the order of handles.
     pub(super) fn near(&self) -> Vec<RigidBodyHandle> {
         let mut near = candidates(&self.physics, self.breakables(), self.config.impact_speed);
         if self.weighs_now() {

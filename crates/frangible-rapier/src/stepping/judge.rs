@@ -38,19 +38,19 @@ impl Judge {
 pub(crate) struct Case {
     pub(super) body: RigidBodyHandle,
     impact: Impact,
-    /// When the world asks for the verdict: number of the step.
+    /// Number of the step in which the world asks for the verdict.
     pub(super) due: u64,
     work: Arc<Work>,
     verdict: Mutex<Receiver<Result<Verdict, WorldError>>>,
 }
 
-/// Work for a verdict, done once by whoever comes first.
+/// Work for a verdict, done once, by the first thread that comes to it.
 struct Work {
     judge: Judge,
     body: Body,
     impact: Impact,
     taken: AtomicBool,
-    /// Nobody hears it when the world is gone.
+    /// Fails only when the world is gone.
     sender: Sender<Result<Verdict, WorldError>>,
 }
 
@@ -140,7 +140,7 @@ impl BreakableWorld {
         })
     }
 
-    /// Has a blow judged while the world goes on, until the step `due`.
+    /// Puts a blow to the fracture on another thread while the world goes on, until the step `due`.
     pub(super) fn judge_elsewhere(
         &mut self,
         body: RigidBodyHandle,

@@ -5,11 +5,11 @@
 //! place, which is right in every detail and costs a copy of the world. A break *after* the step leaves it as it is and exchanges the body
 //! then, which needs no copy and can wait for its turn.
 //!
-//! - `step.rs`: the front door, and what is done around either way;
+//! - `step.rs`: the front door, and the work around either way;
 //! - `inside`, `after`: the two ways;
 //! - `advance.rs`: the step of Rapier that both take;
-//! - `approach.rs`: which bodies may be hit in the coming step;
-//! - `judge.rs`: blows and loads put to the fracture, `answer.rs`: what it says, and what follows for a body;
+//! - `approach.rs`: bodies that may be hit in the coming step;
+//! - `judge.rs`: blows and loads put to the fracture, `answer.rs`: its answers, and what follows for a body;
 //! - `ask.rs`: questions about blows that have not happened.
 
 mod advance;

@@ -65,7 +65,7 @@ impl BreakableWorld {
         pushed.and(done).map(|()| &*self.events)
     }
 
-    /// Rolling, rest, debris and what goes.
+    /// Upkeep after a step: rolling, rest, mortar, debris, dust and rubble.
     pub(super) fn upkeep(&mut self) {
         let mut watch = Watch::start();
         // A break's impulses are a blow, not a weight that rolls; its energy is settled already.

@@ -7,7 +7,7 @@ use faer::sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky;
 
 use crate::eigen::portable::{Entries, add_product};
 
-/// Columns that are factorised before what they take from the rest is taken all at once.
+/// Columns that are factorised before their products are taken from the rest all at once.
 const BLOCK: usize = 32;
 
 /// Factorises a lower triangle, its unknowns renumbered: `place` is where each comes. False where it is not positive definite.

@@ -30,9 +30,9 @@ const WIDE: usize = 4;
 #[derive(Clone, Copy)]
 pub(crate) struct Entries<'a> {
     pub(crate) data: &'a [f64],
-    /// From an entry to the one below it.
+    /// Distance from an entry to the one below it.
     pub(crate) down: usize,
-    /// From an entry to the one beside it.
+    /// Distance from an entry to the one beside it.
     pub(crate) across: usize,
 }
 

@@ -91,7 +91,7 @@ impl pulp::NullaryFnOnce for Solve<'_> {
     }
 }
 
-/// So many columns below the square of a supernode, if there are as many.
+/// N columns below the square of a supernode, if there are as many.
 #[inline(always)]
 fn below<const N: usize>(columns: &[f64], height: usize, width: usize) -> Option<[&[f64]; N]> {
     let all = columns.len() == N * height;

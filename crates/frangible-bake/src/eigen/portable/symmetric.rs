@@ -6,7 +6,7 @@ use crate::eigen::basis::{Block, dot};
 /// Sweeps that an eigenvalue may take; two are usual.
 const SWEEPS: usize = 60;
 
-/// Rising eigenvalues of a symmetric matrix, from its lower triangle, and its eigenvectors. `None` where it holds what is no number.
+/// Rising eigenvalues of a symmetric matrix, from its lower triangle, and its eigenvectors. `None` if an entry is not a finite number.
 pub(crate) fn symmetric(matrix: &Block) -> Option<(Vec<f64>, Block)> {
     let n = matrix.rows;
     let largest = matrix.data.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
@@ -102,7 +102,7 @@ fn ql(d: &mut [f64], e: &mut [f64], vectors: &mut Block) -> bool {
     for l in 0..n {
         let mut sweeps = 0;
         loop {
-            // Largest entry one: what is this small is nothing.
+            // The largest entry is one: an entry this small is nothing.
             let small = |m: usize| {
                 let beside = d[m].abs() + d[m + 1].abs();
                 e[m].abs() <= f64::EPSILON * beside.max(f64::EPSILON)
@@ -167,7 +167,7 @@ mod tests {
 
     #[test]
     fn eigenvectors_are_orthonormal_and_belong_to_their_values() {
-        // Full rank, rank three, equal eigenvalues, tiny numbers, diagonal, and what has no size.
+        // Full rank, rank three, equal eigenvalues, tiny numbers, diagonal, and an empty matrix.
         let cases: [(usize, usize, f64, f64); 7] = [
             (1, 1, 3.0, 0.0),
             (2, 2, 1.0, 0.0),

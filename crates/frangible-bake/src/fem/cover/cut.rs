@@ -49,7 +49,7 @@ fn split(x: [DVec3; 4], d: [f64; 4], out: &mut Vec<[DVec3; 4]>) {
     let above = |i: &usize| d[*i] > ON_PLANE;
     let below = |i: &usize| d[*i] < -ON_PLANE;
     let (ups, downs) = ((0..4).filter(above).count(), (0..4).filter(below).count());
-    // Where the plane meets an edge; a corner on the plane is its own crossing.
+    // Point at which the plane meets an edge; a corner on the plane is its own crossing.
     let crossing = |i: usize, j: usize| {
         if d[j].abs() <= ON_PLANE {
             x[j]

@@ -14,7 +14,7 @@ use crate::mesh::barycentric_gradients;
 pub(crate) struct Cell {
     /// Cube below the face whose edge the cell holds.
     cube: [i32; 3],
-    /// 4 × axis across the face + 2 × which of the two axes in the face + which side.
+    /// 4 × axis across the face + 2 × number (0 or 1) of the axis in the face + number of the side.
     kind: u8,
 }
 

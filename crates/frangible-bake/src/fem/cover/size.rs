@@ -6,9 +6,9 @@ use crate::fem::cover::lattice::{CELL_VOLUME, Cell, Lattice};
 use crate::fem::cover::topology::Topology;
 use crate::mesh::BodyMesh;
 
-/// Relative error that will do in what is counted in no time.
+/// Relative error that will do in counts of sampled points, which take no time.
 const SAMPLED: f64 = 0.02;
-/// Attempts at it: full ones, and counts before each.
+/// Most attempts: full ones, and counts before each.
 const ATTEMPTS: usize = 4;
 const COUNTS: usize = 12;
 /// Points per wanted element from which a count of the cells that hold them will do.

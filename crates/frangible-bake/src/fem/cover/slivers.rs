@@ -18,7 +18,7 @@ pub(crate) struct Contacts {
 }
 
 impl Contacts {
-    /// From pairs that meet inside a tetrahedron of the body, with the area; each pair in one direction, any number
+    /// Lists the contacts of pairs that meet inside a tetrahedron of the body, with the area; each pair in one direction, any number
     /// of times.
     pub(crate) fn new(cells: &[Cell], pairs: impl Iterator<Item = (u32, u32, f64)>) -> Self {
         let pairs: Vec<(u32, u32, f64)> = pairs
@@ -115,7 +115,7 @@ fn joined_without(
     false
 }
 
-/// Those of the points that are corners of the cell.
+/// Points that are corners of the cell.
 fn common(cell: Cell, points: &[Quarters]) -> Vec<Quarters> {
     let corners = cell.corners();
     points

@@ -1,7 +1,7 @@
-//! Who was hit in the step just taken, found without a copy of the world.
+//! Bodies that were hit in the step just taken, found without a copy of the world.
 //!
 //! Before the step only poses and velocities of the bodies were noted (`motions.rs`). They tell which pairs in contact may have met
-//! fast enough; only of the breakable ones among these, and of what touches them, the state before the step is put together.
+//! fast enough; only of the breakable ones among these, and of the bodies that touch them, the state before the step is put together.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -23,12 +23,12 @@ pub(crate) struct Waiting {
     pub(super) step: u64,
 }
 
-/// Those whose turn it is, in the order in which they waited.
+/// Blows whose turn it is, in the order in which they waited.
 #[derive(Default)]
 pub(super) struct Turn {
-    /// Blows that cost nothing.
+    /// Blows that a quick bound refuses.
     pub(super) cheap: Vec<(RigidBodyHandle, Impact)>,
-    /// Blows that the budget is for.
+    /// Blows that use up the budget.
     pub(super) dear: Vec<(RigidBodyHandle, Impact)>,
     /// Bodies that were hit in the step just taken.
     pub(super) fresh: BTreeSet<Key>,
@@ -54,7 +54,7 @@ impl BreakableWorld {
         }
     }
 
-    /// Takes those whose turn it is out of the line, and those that are gone.
+    /// Takes the blows whose turn it is out of the line, and those on bodies that are gone.
     pub(super) fn next_in_line(&mut self, budget: usize) -> Turn {
         let mut turn = Turn::default();
         let mut later = VecDeque::new();
@@ -76,7 +76,7 @@ impl BreakableWorld {
                 work += waiting.cost;
                 turn.dear.push((handle, waiting.impact));
             } else {
-                // First come, first served: whoever comes after one that must wait for the budget waits too.
+                // First come, first served: a blow behind one that must wait for the budget waits too.
                 work = usize::MAX;
                 later.push_back(waiting);
             }

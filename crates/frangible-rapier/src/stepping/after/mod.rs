@@ -23,7 +23,7 @@ use crate::timings::Watch;
 use crate::world::BreakableWorld;
 
 impl BreakableWorld {
-    /// A step of Rapier, and what it broke.
+    /// Takes a step of Rapier, and breaks bodies after it.
     pub(super) fn step_then_break(
         &mut self,
         budget: usize,

@@ -28,7 +28,7 @@ impl BreakableWorld {
             return Ok(());
         };
         self.count(&answer);
-        // What only cracks is dealt with when all loads are looked at.
+        // A body that only cracks is dealt with when all loads are looked at.
         if let Ok(Verdict::Held(_)) = answer.verdict {
             return Ok(());
         }
@@ -69,7 +69,7 @@ impl BreakableWorld {
         } = self.replace(handle, &parts);
         let mut strikers = impact.strikers.clone();
         strikers.retain(|&s| self.physics.bodies.contains(s));
-        // What met a body that broke before it meets that one's pieces.
+        // A striker that broke before has left its pieces in its place.
         let others: Vec<RigidBodyHandle> = (impact.strikers.iter())
             .flat_map(|&s| self.what_became_of(Some(s), families))
             .collect();
@@ -80,7 +80,7 @@ impl BreakableWorld {
         let toll = cracks - lost;
         let paid = take_energy(&mut self.physics.bodies, &fragments, &others, toll);
         let after = self.kinetic_energy_of(&fragments) + self.kinetic_energy_of(&others);
-        // What the engine's blow took, and the blow that broke the body gave back, was there before the step.
+        // Energy that the engine's blow took, and the blow that broke the body gave back, was there before the step.
         let moved = [handle].into_iter().chain(impact.strikers.iter().copied());
         let then: f64 = moved
             .filter_map(|h| before.get(&key(h)))

@@ -73,19 +73,19 @@ impl BreakableWorld {
                 Err(_) => {}
             }
         }
-        // Where two bodies met, the one that breaks says how long the other pushed.
+        // If two bodies met, the one that breaks tells how long the other pushed.
         held.retain(|m: &Meeting| m.partner.is_none_or(|p| !broke.contains_key(&key(p))));
         share_out(&mut broke.values_mut().flatten().collect::<Vec<_>>());
         self.give_blows(held, before);
         broke
     }
 
-    /// Does what was decided elsewhere and is due.
+    /// Carries out the verdicts of other threads that are due.
     pub(super) fn conclude(&mut self) -> Result<(), WorldError> {
         let mut watch = Watch::start();
         let mut done = Ok(());
         let now = self.state.steps;
-        // What no other thread has begun with is done here, rather than waited for.
+        // Cases that no other thread has begun with are done here, rather than waited for.
         let due = self.cases.iter().take_while(|case| case.due <= now);
         due.for_each(Case::help);
         while let Some(case) = self.cases.pop_front_if(|case| case.due <= now) {

@@ -23,11 +23,11 @@ use crate::world::BreakableWorld;
 
 use questions::Asked;
 
-/// A step is undone at most so often; a body that would break only after that breaks in a later step.
+/// Largest number of times that a step is undone; a body that would break only after that breaks in a later step.
 const MAX_REPEATS: usize = 4;
 
 impl BreakableWorld {
-    /// A step of Rapier, taken again with the fragments of what it broke.
+    /// Takes a step of Rapier, and takes it again with the fragments of the bodies that break in it.
     pub(super) fn step_breaking_inside(&mut self, caller: Callbacks<'_>) -> Result<(), WorldError> {
         let mut watch = Watch::start();
         let near = self.near();
@@ -52,7 +52,7 @@ impl BreakableWorld {
         kept.and(weighed)
     }
 
-    /// The step, what was asked in it, and the bodies as they were before it.
+    /// Takes the step. Returns the answers of the fracture in it, and the bodies as they were before it.
     fn step_with_breaks(
         &mut self,
         mut near: Vec<RigidBodyHandle>,

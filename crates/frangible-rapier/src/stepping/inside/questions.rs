@@ -67,7 +67,7 @@ impl BreakableWorld {
         }
         asked.standing.clear();
         if !news {
-            // A blow that came in a step that was undone, and not again, has done nothing, unless what it met broke by it.
+            // A blow that came in a step that was undone, and not again, has done nothing, unless the other body broke by it.
             let stands: BTreeSet<Key> = standing.iter().map(|&handle| key(handle)).collect();
             let (held, broken) = (&mut asked.held, &asked.broken);
             held.retain(|body, (_, event)| {
