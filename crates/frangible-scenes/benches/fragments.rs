@@ -1,4 +1,4 @@
-//! Cost of what follows the cracks, by the stages' own clocks: labels, and partition with surfaces and masses.
+//! Cost of the stages after the cracks, by their own clocks: labels, and partition with surfaces and masses.
 //!
 //! A glass and a pane in pieces, and one block of few elements and of many.
 

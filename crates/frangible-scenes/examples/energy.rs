@@ -170,7 +170,7 @@ impl Row {
     }
 }
 
-/// To three digits.
+/// Writes a number with three digits.
 fn short(x: f64) -> String {
     if x.abs() < 5e-5 {
         return "0".into();

@@ -33,7 +33,7 @@ const COLUMNS: [&str; 8] = [
     "time, ms",
 ];
 
-/// Below this chance, or with means so many standard errors apart, samples differ.
+/// Samples differ if chance explains them less often than this, or if their means are this many standard errors apart.
 const LEAST_P: f64 = 0.01;
 const MOST_ERRORS: f64 = 2.0;
 

@@ -17,7 +17,7 @@ const PLACES: usize = 12;
 /// Speeds tried at each of them, m/s: from the slowest, in steps of a thirtieth.
 const SLOWEST: f64 = 1.0;
 const SPEEDS: usize = 100;
-/// Less area of cracks is none, m².
+/// Least area of cracks that counts, m².
 const CRACKED: f64 = 5e-4;
 /// Blows at most.
 const BLOWS: usize = 8;
@@ -123,7 +123,7 @@ fn parts_at(
     Ok(None)
 }
 
-/// Speed, m/s, blow, and what it left.
+/// Speed, m/s, blow, and the cracked body.
 type Cracked = (f64, Contact, Body);
 
 /// The highest speed below the first that parts the cup, where it leaves cracks; the blow, and the cracked cup.

@@ -38,7 +38,7 @@ pub(crate) fn appearance(material: &str) -> Appearance {
             crack_line: plain("crack line", [red, green, blue, 1.0], 1.0),
         }
     };
-    // Where light is not followed, clear bodies are drawn with some opacity and darker crack faces, so that shards can be told apart.
+    // Renderers that do not trace light draw clear bodies with some opacity and darker crack faces, so that shards can be told apart.
     let clear = |outer: [f32; 4], inner: [f32; 4], ior: f32, left: [f32; 3], grain: Grain| {
         let part = |name: &str, color: [f32; 4], roughness: f32| SurfaceMaterial {
             transmission: 1.0,

@@ -34,7 +34,7 @@ pub fn bake(
     bake_opened(scene, opened, progress)
 }
 
-/// Checks the scene and reads the sources of its bodies: whatever can be wrong with them is found here, and nothing is
+/// Checks the scene and reads the sources of its bodies: all faults of these are found here, and nothing is
 /// computed yet.
 ///
 /// # Errors
@@ -223,7 +223,7 @@ fn mendable(spec: &frangible_bake::BakeSpec, error: frangible_bake::BakeError) -
     }
 }
 
-/// A support that cannot be used, said with what it is and where the body lies along the axes that it names.
+/// Error of a support that cannot be used: its region, and the extent of the body along the axes that it names.
 #[cfg(feature = "bake")]
 fn misplaced(spec: &frangible_bake::BakeSpec, number: usize, problem: &str) -> Option<SceneError> {
     use frangible_bake::Region;

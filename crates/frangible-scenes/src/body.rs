@@ -98,7 +98,7 @@ impl BodySpec {
         }
     }
 
-    /// Lets it fall from rest, its lowest point `height` metres above the floor, where it stood before seen from above.
+    /// Lets it fall from rest, its lowest point `height` metres above the floor, over the same place as before.
     pub fn drop_from(&mut self, height: f64) {
         let over = self.place.over();
         self.place = Place::Above { height, over };

@@ -5,34 +5,34 @@ use frangible_recording::{Recording, View};
 
 use crate::recorder::Role;
 
-/// Share of the picture's height and width, at most, that is left free around what it shows.
+/// Size of the picture over that of its subject.
 const MARGIN: f32 = 1.08;
 
-/// Share of a disc around pieces that their faces fill, at least: so many of them are shown, and strays are not.
+/// Share of a disc around pieces that their faces fill, at least: as many pieces as that allows are shown, and strays are not.
 const FILLED: f64 = 0.12;
 
 /// Share of the disc that is enough where pieces lie so far apart that [`FILLED`] would show fewer than [`FEW`] of them.
 const FILLED_THINLY: f64 = 0.04;
 
-/// Fewer pieces than these say little of what broke.
+/// Number of pieces below which a picture says little of the break.
 const FEW: usize = 3;
 
-/// A body that moves less far than this stays where it is, m.
+/// Distance below which a body that moves stays where it is, m.
 const STAYS: f32 = 0.01;
 
-/// The centre of a piece that hangs is higher over the floor than this, m.
+/// Height of a piece's centre over the floor above which it hangs, m.
 const HANGS: f32 = 0.05;
 
 /// Height over width below which a body lies flat.
 const FLAT: f32 = 0.4;
 
-/// Least height of the eye over what lies flat, as a share of its distance along the floor.
+/// Least height of the eye over a subject that lies flat, as a share of its distance along the floor.
 const ABOVE: f32 = 0.9;
 
-/// Pieces are looked at from no nearer than so much of the distance of the whole body.
+/// Least distance from which pieces are looked at, as a share of that of the whole body.
 const NEARER: f32 = 0.6;
 
-/// The piece in the middle of the picture is one of so many of the heaviest.
+/// Number of the heaviest pieces of which one is in the middle of the picture.
 const MIDDLES: usize = 8;
 
 /// Share of the mass of what breaks that is shown while it still lies together: crumbs that have flown off are not.
@@ -68,14 +68,14 @@ pub(crate) fn cameras(recording: &Recording, roles: &[Role], look_from: Vec3) ->
     let bodies = things(recording, roles, moments.before, |_, role| {
         role == Role::Body
     });
-    // What breaks, where not all do.
+    // The bodies that break, where not all do.
     let mut breaking = things(recording, roles, moments.before, |node, role| {
         role == Role::Body && broke(node)
     });
     if breaking.is_empty() {
         breaking = bodies;
     }
-    // What has cracked and holds is another node from then on.
+    // A body that has cracked and holds is another node from then on.
     let stays = |node: usize, since: usize| {
         let [from, to] = [since, end].map(|frame| recording.pose(node, frame));
         let seen = recording.nodes[node].visible.contains(&end);
@@ -110,7 +110,7 @@ pub(crate) fn cameras(recording: &Recording, roles: &[Role], look_from: Vec3) ->
         let seen = things(recording, roles, end, |_, role| role != Role::Projectile);
         about(&seen, middle(&before))
     };
-    // Where all has fallen far from there, the place says nothing.
+    // If all has fallen far from there, the place says nothing.
     let about_place = standing.then(about_place).filter(|seen| !seen.is_empty());
     let place_at_end = about_place.is_some();
     let resting = about_place.unwrap_or_else(|| together(&pieces(end)));
@@ -127,14 +127,14 @@ pub(crate) fn cameras(recording: &Recording, roles: &[Role], look_from: Vec3) ->
     });
     let whole: Vec<Vec3> = before.iter().chain(&resting).copied().collect();
     let [before, first] = [&before, &first].map(|points| look(points));
-    // One large piece alone, closer than the whole body was, is not seen for what it is.
+    // One large piece alone, closer than the whole body was, would not be recognised.
     let nearest = NEARER * before.eye.distance(before.target);
     let flying = view(&flying, ground, look_from, nearest);
     let resting = view(&resting, ground, over(&resting, look_from), nearest);
     (look(&whole), [before, first, flying, resting])
 }
 
-/// The direction to look from, but from higher up at what lies flat.
+/// The direction to look from, but from higher up if the subject lies flat.
 fn over(seen: &[Vec3], look_from: Vec3) -> Vec3 {
     let low = seen.iter().copied().fold(Vec3::INFINITY, Vec3::min);
     let size = seen.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max) - low;
@@ -240,7 +240,7 @@ fn heaviest_group(things: &[Thing], share: f64) -> Vec<usize> {
     best.unwrap_or_default()
 }
 
-/// A thing, however thin it is, and those around it that fill so much of a disc.
+/// A thing, however thin it is, and those around it that fill this share of a disc.
 fn group(things: &[Thing], middle: usize, share: f64) -> Vec<usize> {
     let around = filled(things, things[middle].centre, share);
     if around.is_empty() {
@@ -262,7 +262,7 @@ fn about(things: &[Thing], place: Vec3) -> Vec<Vec3> {
     points(things, filled(things, place, FILLED))
 }
 
-/// The things within the widest disc about a place of which they fill so much.
+/// The things within the widest disc about a place of which they fill this share.
 fn filled(things: &[Thing], place: Vec3, share: f64) -> Vec<usize> {
     let reach = |thing: &Thing| {
         let distances = thing.points.iter().map(|p| p.distance(place));
@@ -314,7 +314,7 @@ pub(crate) fn view(seen: &[Vec3], ground: f32, look_from: Vec3, nearest: f32) ->
     let high = seen.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
     let mut target = 0.5 * (low + high);
     let mut distance = nearest;
-    // What is near looks large: the middle of the picture is not that of the points, and a few rounds find it.
+    // Near points look large: the middle of the picture is not that of the points, and a few rounds find it.
     for _ in 0..6 {
         let across = |p: Vec3| {
             let d = p - target;

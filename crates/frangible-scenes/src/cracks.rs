@@ -66,7 +66,7 @@ pub(crate) fn add_cracks(
         if surfaces.clear {
             faces.triangle(mesh, [a, b, c], normal);
         } else {
-            // Of what is opaque each side has a face of its own.
+            // In an opaque body each side has a face of its own.
             faces.triangle(mesh, [a, b, c], normal);
             faces.triangle(mesh, [a, c, b], -normal);
         }

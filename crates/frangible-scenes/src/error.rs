@@ -1,10 +1,10 @@
-//! Why a scene gave no result.
+//! Errors of scenes.
 
 use std::path::PathBuf;
 
 use thiserror::Error;
 
-/// Why a scene gave no result.
+/// Error of a scene.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SceneError {

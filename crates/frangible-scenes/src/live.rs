@@ -1,4 +1,4 @@
-//! A scene that runs step by step, for those who look on and throw things: what there is at the moment, with its shapes.
+//! A scene that runs step by step, for those who look on and throw things: the things in it at the moment, with their shapes.
 
 mod looks;
 mod reel;
@@ -34,7 +34,7 @@ pub use state::SavedScene;
 pub use swing::Swing;
 pub use throw::Throw;
 
-/// Shortest steps per second, 1/s: what is taken while something may break, as in [`play`](crate::play()).
+/// Number of the shortest steps per second, 1/s: those taken while something may break, as in [`play`](crate::play()).
 const TICKS_PER_SECOND: u64 = 3840;
 
 /// Ticks of a step when nothing is about to break.
@@ -333,7 +333,7 @@ impl LiveScene {
         self.floor.as_ref()
     }
 
-    /// All things there were so far, what is gone included; they keep their numbers.
+    /// All things so far, those that are gone included; they keep their numbers.
     #[must_use]
     pub fn things(&self) -> &[Arc<Thing>] {
         &self.things

@@ -23,10 +23,10 @@ const NOT_GIVEN: &str = "this file was not given; give it together with the file
 /// Files that scenes are made of.
 #[derive(Clone, Debug, Default)]
 pub enum Files {
-    /// Those on the disk.
+    /// Files on the disk.
     #[default]
     Disk,
-    /// These, by their names; there is no disk.
+    /// These files, by their names; there is no disk.
     Given(BTreeMap<PathBuf, Vec<u8>>),
 }
 

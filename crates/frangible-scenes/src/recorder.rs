@@ -54,7 +54,7 @@ pub(crate) struct Recorder {
     node_of_body: BTreeMap<(u32, u32), usize>,
     touching: WorldTouching,
     break_frame: Option<usize>,
-    /// When cracks first ran that parted nothing.
+    /// Frame in which cracks first ran that parted nothing.
     crack_frame: Option<usize>,
 }
 
@@ -130,7 +130,7 @@ impl Recorder {
         self.node_of_body.insert(body.into_raw_parts(), node);
     }
 
-    /// Puts the pieces in the place of their parent, which has this name and comes from so many breaks, `time` s after the first frame.
+    /// Puts the pieces in the place of their parent, which has this name and generation, `time` s after the first frame.
     pub(crate) fn broke(
         &mut self,
         world: &BreakableWorld,
@@ -290,7 +290,7 @@ pub(crate) fn piece_sounding(
     )
 }
 
-/// Name of a piece of what has this name and comes from so many breaks: `plate piece 3`, and of that `plate piece 3.1`.
+/// Name of a piece of a parent of this name and generation: `plate piece 3`, and of that `plate piece 3.1`.
 pub(crate) fn piece_name(parent: &str, generation: u32, i: usize) -> String {
     match generation {
         0 => format!("{parent} piece {}", i + 1),

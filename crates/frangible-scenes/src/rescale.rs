@@ -1,4 +1,4 @@
-//! Another material or size of a body that came baked.
+//! Another material or size of a baked body.
 
 use std::path::Path;
 
@@ -70,7 +70,7 @@ impl MaterialEdit {
         if let Some(name) = &self.name {
             m.name.clone_from(name);
         }
-        // First what follows from a number that is given, then all numbers that are.
+        // First the numbers that follow from a given one, then all given ones.
         let [youngs_modulus, _, _, _, _, strength, fracture_energy, ..] = self.numbers;
         m.youngs_modulus = youngs_modulus.unwrap_or(m.youngs_modulus);
         if let Some(fracture_energy) = fracture_energy {
@@ -103,7 +103,7 @@ impl MaterialEdit {
     }
 }
 
-/// The asset of a file with what is to be another.
+/// The asset of a file with these changes.
 pub(crate) fn rescaled(asset: Asset, rescale: &Rescale, path: &Path) -> Result<Asset, SceneError> {
     let wrong = |source: RescaleError| SceneError::Rescale {
         path: path.to_path_buf(),

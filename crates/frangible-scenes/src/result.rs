@@ -17,7 +17,7 @@ pub struct Run {
     pub breaks: Vec<BreakRecord>,
     /// The hardest impact on each body that did not break it, if any, in the order of the bodies.
     pub held: Vec<HeldRecord>,
-    /// Everything that hit a body or its pieces and was put to the fracture, in the order of time.
+    /// All blows on a body or its pieces that were put to the fracture, in the order of time.
     pub blows: Vec<BlowRecord>,
     /// True if everything but projectiles lay still at the end.
     pub at_rest: bool,
@@ -57,7 +57,7 @@ pub struct BlowRecord {
     pub approach_speed: f64,
     /// Kinetic energy of approach, J.
     pub approach_energy: f64,
-    /// True if it parted what it hit.
+    /// True if it parted the body.
     pub broke: bool,
     /// Strength over the stress, or over a bound of it, if the body held.
     pub margin: Option<f64>,
@@ -153,7 +153,7 @@ impl BreakRecord {
                 "{approach} J of approach out of {before} J of motion and work"
             ));
         }
-        // What a resting load spends on cracks is the work of gravity that bent the body before.
+        // Cracks under a resting load are paid by the work of gravity that bent the body before.
         let after = self.kinetic_after + if impact { self.cracks_together } else { 0.0 };
         above(after, before)
             .then(|| format!("{after} J of motion and cracks out of {before} J of motion and work"))

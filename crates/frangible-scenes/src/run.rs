@@ -95,7 +95,7 @@ pub fn play(
                     recorder.cracked(held.body, body.asset(), state, surfaces);
                 }
                 let (contacts, report) = (&held.contacts, &held.report);
-                // What a body carries is no blow.
+                // A resting load is no blow.
                 if !contacts.is_empty() {
                     if let Some(breakable) = world.breakable(held.body) {
                         recorder.blow(held.body, breakable.asset(), report, run.simulated, 0..0);
@@ -155,7 +155,7 @@ pub fn play(
         run.frame_seconds.push(clock.elapsed().as_secs_f64());
         recorder.frame(world);
         progress(frame as f64 / frames as f64);
-        // What is held rests all along: what flies towards it arrives first.
+        // A held body rests all along: a projectile that flies towards it arrives first.
         let arrived = projectiles.iter().all(|t| t.arrives <= run.simulated);
         rest_frames = match arrived && at_rest(world, projectiles) {
             true => rest_frames + 1,
@@ -214,7 +214,7 @@ pub(crate) fn steps_of_frame(stage: &mut Stage<'_>, scene: &Scene, just_broken: 
         .iter()
         .filter(|body| world.breakable(body.handle).is_some());
     let first = whole.next().is_some();
-    // Where pieces break again some bodies may stay whole to the end.
+    // If pieces break again, some bodies may stay whole to the end.
     let waits = first && (stage.bodies.len() == 1 || scene.pieces.generations == 0);
     if (just_broken && stage.bodies.len() <= FEW) || waits {
         return FINE_STEPS_PER_FRAME;

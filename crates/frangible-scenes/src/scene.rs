@@ -1,4 +1,4 @@
-//! A scene as plain data: bodies that may break, what flies at them, what they land on.
+//! A scene as plain data: bodies that may break, projectiles, and the floor.
 
 use frangible::FractureConfig;
 use frangible::glam::Vec3;
@@ -33,7 +33,7 @@ pub struct Scene {
     pub adhesive: Option<Adhesive>,
     /// Longest simulated time, s; the scene ends sooner when everything rests.
     pub duration: f64,
-    /// Direction from what is looked at towards the camera.
+    /// Direction from the subject towards the camera.
     pub look_from: Vec3,
     /// Files it asks for.
     pub output: Output,
@@ -99,7 +99,7 @@ impl Scene {
         }
     }
 
-    /// Stands every body that was to fall on the floor, and throws this instead of what was thrown.
+    /// Stands every body that was to fall on the floor, and throws this instead of the projectiles before.
     pub fn throw(&mut self, projectile: Projectile) {
         self.projectiles = vec![projectile];
         for body in &mut self.bodies {

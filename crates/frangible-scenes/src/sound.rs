@@ -1,7 +1,7 @@
 //! Sound of a run: from its recording to samples.
 //!
-//! Each node is a body of the synthesiser. What struck it is in the recording: the force of each blow as the fracture found it, the cracks with
-//! their times and energy, and where pieces touched, of which the impulse is known and the duration is Hertz'.
+//! Each node is a body of the synthesiser. The recording has the causes of its sound: the force of each blow as the fracture found it, the cracks
+//! with their times and energy, and the touches of pieces, of which the impulse is known and the duration is Hertz'.
 
 mod energy;
 mod live;
@@ -106,7 +106,7 @@ fn floor_material(scene: &Scene) -> Option<Material> {
 /// Sources of sound in a run that are heard.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sources {
-    /// The forces of blows, on what was struck and on what struck.
+    /// The forces of blows, on struck bodies and strikers.
     pub blows: bool,
     /// Cracks.
     pub cracks: bool,

@@ -143,7 +143,7 @@ fn ending(path: &Path) -> Option<String> {
 /// A source that has been read: all that can be wrong with its file is known.
 #[derive(Clone, Debug)]
 pub enum Opened {
-    /// To be baked.
+    /// A body to be baked.
     Shape {
         /// Its geometry.
         shape: Shape,

@@ -27,7 +27,7 @@ use crate::scene::Scene;
 /// Gap between a standing body and the floor, m.
 const STANDING_GAP: f32 = 1e-4;
 
-/// With more bodies than this the colliders are light.
+/// Number of bodies above which the colliders are light.
 pub(crate) const FEW: usize = 8;
 
 /// A body in the world.
@@ -55,9 +55,9 @@ pub(crate) struct Thrown {
     pub(crate) number: usize,
     /// None before it sets out.
     pub(crate) handle: Option<RigidBodyHandle>,
-    /// When it should be where it is aimed at, s; infinite before it sets out.
+    /// Time at which it should reach its target, s; infinite before it sets out.
     pub(crate) arrives: f64,
-    /// When it is taken away, s; infinite for never.
+    /// Time at which it is taken away, s; infinite for never.
     pub(crate) until: f64,
 }
 
@@ -80,7 +80,7 @@ pub(crate) fn set_up_as<'a>(
     set_up_kinds(scene, &kinds?, change)
 }
 
-/// Sets up a scene whose bodies are of these kinds, whatever it says of their weakness.
+/// Sets up a scene whose bodies are of these kinds; their description's weakness is not looked at.
 pub(crate) fn set_up_kinds<'a>(
     scene: &'a Scene,
     kinds: &[Breakable],

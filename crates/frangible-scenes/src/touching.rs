@@ -42,13 +42,13 @@ fn name((index, generation): (u32, u32)) -> u64 {
     u64::from(generation) << 32 | u64::from(index)
 }
 
-/// Who pushes whom and where; `None` where nobody pushes, or none of them is followed.
+/// The push at a contact of two bodies; `None` if there is no impulse, or neither of them is followed.
 fn push(
     world: &BreakableWorld,
     contact: &ContactPair,
     node: &dyn Fn(RigidBodyHandle) -> Option<usize>,
 ) -> Option<Push> {
-    // A sum of vectors: what is pushed from both sides goes nowhere.
+    // A sum of vectors: equal pushes from both sides cancel.
     let push = Vec3::from(contact.total_impulse().to_array());
     if push == Vec3::ZERO {
         return None;

@@ -42,7 +42,7 @@ pub struct WaveMoment {
 /// A line along which a crack cuts a triangle of the surface.
 #[derive(Clone, Copy, Debug)]
 pub struct SurfaceCut {
-    /// When, s since the blow began.
+    /// Time, s since the blow began.
     pub time: f64,
     /// Its ends, m.
     pub ends: [Vec3; 2],
@@ -51,13 +51,13 @@ pub struct SurfaceCut {
 }
 
 impl FirstBreak {
-    /// Its microseconds at so many evenly spaced times, from the beginning of the blow until shortly after the last crack grew.
+    /// Computes the tension at `moments` evenly spaced times, from the beginning of the blow until shortly after the last crack grew.
     /// `progress` gets the share that is done.
     ///
     /// The tension is that of the unbroken body in the motion that cracks run under: cracks release it about them, which is not shown.
     ///
     /// # Errors
-    /// What [`frangible::impact()`] refuses.
+    /// As [`frangible::impact()`].
     pub fn wave(&self, moments: usize, progress: &mut dyn FnMut(f64)) -> Result<Wave, InputError> {
         let asset = &**self.body.asset();
         let (outcome, trace) = impact_traced(&self.body, &self.contacts, &self.config)?;
@@ -170,7 +170,7 @@ fn line(corners: [Vec3; 3], values: [f32; 3]) -> Option<[Vec3; 2]> {
     (count == 2).then_some(ends)
 }
 
-/// The outer surface with the places that it has, and what is around them.
+/// The outer surface with its own places, and the triangles around each.
 struct Surface {
     nodes: Vec<u32>,
     triangles: Vec<[u32; 3]>,

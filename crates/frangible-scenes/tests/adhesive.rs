@@ -1,4 +1,4 @@
-//! An adhesive holds the pieces of what it bonds.
+//! An adhesive holds the pieces of the body that it bonds.
 
 use frangible::Material;
 use frangible::glam::Vec3;
@@ -71,7 +71,7 @@ fn an_adhesive_without_strength_or_patches_is_refused() {
     }
 }
 
-/// The tile without a ball, so far from the block, bonded or not.
+/// The tile without a ball, at this distance from the block, m, bonded or not.
 fn hung(gap: f32, patch: Option<f64>) -> Scene {
     let mut scene = tile_on_a_block();
     scene.projectiles.clear();

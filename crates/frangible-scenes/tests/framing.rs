@@ -108,7 +108,7 @@ fn shown_of(
     }
 }
 
-/// Moments of this scene, whose bodies have so many modes, that show too little or too much.
+/// Moments of this scene, baked with this number of modes, that show too little or too much.
 fn badly_framed(mut scene: Scene, modes: usize) -> Vec<String> {
     for body in &mut scene.bodies {
         body.modes = body.modes.min(modes);
@@ -138,7 +138,7 @@ fn badly_framed(mut scene: Scene, modes: usize) -> Vec<String> {
         .enumerate()
         .filter(|(i, (_, s, most_is_whole))| {
             let small = match i {
-                // What is thin cannot be shown larger than the picture is high or wide.
+                // A thin subject cannot be shown larger than the picture is high or wide.
                 0 | 1 => s.cover < 0.15 && s.fills < LARGE,
                 _ => s.cover < 0.08,
             };

@@ -1,4 +1,4 @@
-//! Cracks follow what is scored. Share of the crack area in grooves, which are 23 % of the volume, over eight seeds: without kinks
+//! Cracks follow scores. Share of the crack area in grooves, which are 23 % of the volume, over eight seeds: without kinks
 //! 0.34 (dropped on a corner), 0.40 (hit in the middle) and 0.30 (hit hard), with them 0.72, 0.78 and 0.63; a bar without scores 0.25.
 
 use std::sync::Arc;

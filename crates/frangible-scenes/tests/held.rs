@@ -30,7 +30,7 @@ fn pieces_that_touch_a_support_stay_and_the_others_fall() {
                 }
                 let place = |frame| run.recording.pose(i, frame).translation;
                 let moved = place(last).distance(place(node.visible.start));
-                // Held at 0.2 m and above: what is not held comes down, unless it lies on what is.
+                // Held at 0.2 m and above: pieces that are not held come down, unless they lie on one that is.
                 if moved < 1e-6 {
                     stay += 1;
                 } else if place(last).y < 0.15 {

@@ -53,7 +53,7 @@ fn a_block_that_is_cracked_through_comes_apart() {
     println!("largest pieces at 15 m/s: {largest:.2?}");
     let mean = largest.iter().sum::<f64>() / largest.len() as f64;
     assert!(mean < 0.45, "{largest:?}");
-    // What breaks off at a corner may leave most of the block whole, but seldom.
+    // A corner that breaks off may leave most of the block whole, but seldom.
     let hardly = largest.iter().filter(|share| **share > 0.6).count();
     assert!(hardly <= 2, "{largest:?}");
 }

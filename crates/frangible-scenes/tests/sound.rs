@@ -59,10 +59,10 @@ fn a_scene_sends_a_small_part_of_the_energy_that_it_lost() {
     ]
     .map(of);
     assert!(parts.iter().all(|&part| part > 0.0), "{parts:?}");
-    // They come at different times and add up in the mean; what is masked in the whole is heard alone.
+    // They come at different times and add up in the mean; tones that are masked in the whole are heard alone.
     let sum: f64 = parts.iter().sum();
     assert!((0.7..1.3).contains(&(sum / all)), "{parts:?} of {all}");
-    // Cracks cannot send more than they were given: a share of what they cost.
+    // Cracks cannot send more than they were given: a share of their cost.
     let paid: f64 = run.recording.blows.iter().map(|b| b.fracture_energy).sum();
     assert!(parts[1] < 0.03 * paid, "{} of {paid}", parts[1]);
     // Slides cannot either: a share of what friction took.
@@ -110,7 +110,7 @@ fn a_scene_on_the_move_sounds_as_its_recording_does() {
     }
     println!("the longest step took {:.1} ms to hear", 1e3 * longest);
     let recorded = sound(&run, &scene, &sound_config(&run, &scene)).expect("a sound");
-    // What rings on after the last step was not asked for.
+    // Sound after the last step was not asked for.
     let known = &recorded.samples[..heard.len().min(recorded.samples.len())];
     let onset = |samples: &[f32]| {
         samples

@@ -27,7 +27,7 @@ fn models() -> [(&'static str, FractureConfig); 2] {
     ]
 }
 
-/// A break and what it is a break of.
+/// A break, with its name and its asset.
 type Break = (String, &'static Arc<Asset>, Box<Fracture>);
 
 /// Looks at every break of the cases above, for three seeds and both models.
@@ -241,7 +241,7 @@ fn askew(config: &FractureConfig) -> f64 {
 #[test]
 fn cracks_stand_upright_in_a_pane() {
     let ours = askew(&FractureConfig::default());
-    // What feeds a crack is the tension across it, which hardly feeds one that lies askew; the paper's depth γ feeds all alike.
+    // The tension across a crack feeds it, which hardly feeds one that lies askew; the paper's depth γ feeds all alike.
     let mut walls = FractureConfig::default();
     walls.griffith_fronts = false;
     let mut centres = walls.clone();
@@ -417,7 +417,7 @@ fn what_a_dropped_plate_has_lost_comes_to_rest() {
         })
         .collect();
     println!("pieces, and the last cut, s: {broken:?}");
-    // Where the whole plate's modes go on in all pieces, there are 233 to 313 of them. What is left of the plate rings on, and cracks late.
+    // If the whole plate's modes go on in all pieces, there are 233 to 313 pieces. The rest of the plate rings on, and cracks late.
     for (pieces, last) in broken {
         assert!(pieces < 150 && last < 3e-3, "{pieces} pieces, {last} s");
     }

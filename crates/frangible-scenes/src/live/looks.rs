@@ -42,8 +42,8 @@ impl LiveScene {
         recording
     }
 
-    /// A camera that has the scene's bodies in view, or what is left of them, and the floor below them. Bodies high above the floor come into view as
-    /// they fall: a glass that falls 1.2 m would be a speck in a picture of all of its way.
+    /// A camera that has the scene's bodies in view, or the pieces left of them, and the floor below them. Bodies high above the floor come into view
+    /// as they fall: a glass that falls 1.2 m would be a speck in a picture of all of its way.
     #[must_use]
     pub fn view(&self, look_from: Vec3) -> View {
         let mut seen = Vec::new();
@@ -54,7 +54,7 @@ impl LiveScene {
             .iter()
             .filter(|thing| self.pose(thing).is_some());
         let whole = there.clone().any(|thing| is_body(thing));
-        // Where all bodies are broken, their pieces and what was thrown.
+        // If all bodies are broken, their pieces and the projectiles.
         for thing in there.filter(|thing| is_body(thing) || !whole) {
             let Some(pose) = self.pose(thing) else {
                 continue;

@@ -13,7 +13,7 @@ const RATE: f64 = 60.0;
 /// Things at one moment, and their poses.
 type Moment = Vec<(Arc<Thing>, Pose)>;
 
-/// The last seconds as whoever looked on saw them: in slow motion a step is long.
+/// The last seconds as a spectator saw them: in slow motion a step is long.
 pub struct Reel {
     /// Seconds that are kept.
     kept: f64,
@@ -23,7 +23,7 @@ pub struct Reel {
 }
 
 impl Reel {
-    /// Nothing yet; later the last so many seconds, which may be infinite.
+    /// An empty reel that keeps the last `seconds`, which may be infinite.
     #[must_use]
     pub fn keeping(seconds: f64) -> Self {
         Self {
@@ -44,7 +44,7 @@ impl Reel {
         self.moments.len() as f64 / RATE
     }
 
-    /// Notes where everything is after so many seconds of film.
+    /// Notes the poses of all things after `passed` seconds of film.
     pub fn note(&mut self, live: &LiveScene, passed: f64) {
         self.since += passed;
         let due = ((self.since * RATE + 1e-6).floor()).min(self.kept * RATE);
@@ -63,7 +63,7 @@ impl Reel {
         }
     }
 
-    /// The last seconds with so many pictures a second, seen from `camera`; at least one picture, of what is there now.
+    /// The last seconds with `rate` pictures a second, seen from `camera`; at least one picture, of the present things.
     #[must_use]
     pub fn recording(&self, live: &LiveScene, seconds: f64, rate: f64, camera: View) -> Recording {
         let mut chosen: Vec<&Moment> = Vec::new();
@@ -85,7 +85,7 @@ impl Reel {
                 ..live.recording(camera)
             }
         };
-        // The mesh of each thing, and the node that was its last; what comes back after a while, undone, is another node.
+        // The mesh of each thing, and its last node; a thing that comes back after a while, undone, is another node.
         let mut known: BTreeMap<usize, (usize, usize)> = BTreeMap::new();
         for (frame, moment) in chosen.into_iter().enumerate() {
             for (thing, pose) in moment {

@@ -35,7 +35,7 @@ impl Schedule {
 }
 
 impl LiveScene {
-    /// Throws what is due, and takes away what was to stay until now.
+    /// Throws the projectiles that are due, and takes away those whose time is over.
     pub(super) fn throw_due(&mut self) -> Result<(), SceneError> {
         let now = self.time();
         for number in 0..self.schedule.thrown.len() {

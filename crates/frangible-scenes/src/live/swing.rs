@@ -113,7 +113,7 @@ impl Swing {
     }
 }
 
-/// From the head to the hand, across the blow and as far upwards as may be: so the head comes from above, and never out of
+/// Direction from the head to the hand, across the blow and as far upwards as may be: so the head comes from above, and never out of
 /// the floor.
 fn toward_hand(blow: Vec3) -> Vec3 {
     let up = Vec3::Y.reject_from_normalized(blow);
@@ -192,7 +192,7 @@ impl LiveScene {
                 Phase::Coming { angle, led } => {
                     *angle -= swung.rate * dt;
                     let to = swung.pivot + Quat::from_axis_angle(swung.axis, -*angle) * swung.arm;
-                    // A sweep may have stopped the head at what it is about to strike; it does not make up for that.
+                    // A sweep may have stopped the head at the body that it is about to strike; it does not make up for that.
                     *led = ((to - at) / dt).clamp_length_max(swung.rate * ARM);
                     body.set_linvel(vector(*led), true);
                     body.set_angvel(vector(swung.rate * swung.axis), true);

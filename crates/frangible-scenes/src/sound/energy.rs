@@ -10,15 +10,15 @@ use super::{Sources, sound_of};
 use crate::result::Run;
 use crate::scene::Scene;
 
-/// Microphones around a scene, and how far from what the camera looks at, m: far beyond the size of what breaks.
+/// Microphones around a scene, and their distance from the camera's target, m: far beyond the size of the bodies.
 const MICROPHONES: u32 = 32;
 const AWAY: f64 = 5.0;
 
 /// Gravity, m/s².
 const GRAVITY: f64 = 9.81;
 
-/// Energy that leaves a run as sound of these sources, J: what flows through a sphere about it, found at points all over the sphere. There
-/// is no floor, so that what is pushed into it is left out, and nothing is reflected.
+/// Energy that leaves a run as sound of these sources, J: the flow through a sphere about it, found at points all over the sphere. There
+/// is no floor, so that pushes into it are left out, and nothing is reflected.
 ///
 /// # Errors
 /// A number of the recording that cannot be used.
@@ -51,7 +51,7 @@ pub fn energy_lost(run: &Run) -> f64 {
     energy(run, 0) - energy(run, run.recording.frame_count.saturating_sub(1))
 }
 
-/// Energy of what is seen in a frame, J.
+/// Energy of the visible things in a frame, J.
 fn energy(run: &Run, frame: usize) -> f64 {
     let recording = &run.recording;
     let mut sum = 0.0;

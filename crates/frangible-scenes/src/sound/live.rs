@@ -108,11 +108,11 @@ impl LiveSound {
         self.hearing.synth().report()
     }
 
-    /// Takes in the step that was just taken, and adds what is heard until its end to `out`: pressures, Pa, left and right in turn. The last
-    /// [`BLOCK`](frangible_sound::BLOCK) samples come with the next step, so that what happens then begins on its sample.
+    /// Takes in the step that was just taken, and adds the sound up to its end to `out`: pressures, Pa, left and right in turn. The last
+    /// [`BLOCK`](frangible_sound::BLOCK) samples come with the next step, so that events of that step begin on their samples.
     ///
     /// # Errors
-    /// A number of what happened that cannot be used; the rest is heard.
+    /// A number of an event that cannot be used; the rest is heard.
     pub fn step(&mut self, live: &LiveScene, out: &mut Vec<f32>) -> Result<(), SoundError> {
         self.find_poses(live);
         let happened = self.hear(live);

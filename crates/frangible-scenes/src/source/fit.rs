@@ -82,7 +82,7 @@ pub(super) fn turned<T: std::ops::Neg<Output = T>>([x, y, z]: [T; 3], up: Axis) 
     }
 }
 
-/// To three digits, for messages.
+/// Rounds to three digits, for messages.
 fn rounded(value: f64) -> f64 {
     let unit = 10_f64.powi(2 - value.log10().floor() as i32);
     if unit.is_finite() && unit > 0.0 {

@@ -8,7 +8,7 @@ use frangible_mesh::{InputMesh, RepairReport};
 use super::Opened;
 use crate::error::SceneError;
 
-/// A mesh in metres, y up, as a shape with a fracture mesh of about `tets` tetrahedra: what it encloses, or a wall of this
+/// A mesh in metres, y up, as a shape with a fracture mesh of about `tets` tetrahedra: the solid that it encloses, or a wall of this
 /// thickness, m, along it.
 pub(super) fn shape(
     mesh: &InputMesh,

@@ -1,4 +1,4 @@
-//! From the keys of a `[[body]]` to a body.
+//! Conversion of the keys of a `[[body]]` to a body.
 
 use std::path::Path;
 
@@ -99,7 +99,7 @@ pub(super) fn body(table: BodyTable, usual: String, folder: &Path) -> Result<Bod
             .map_err(|e| Fault::new("material", e))?,
         _ => usual_material,
     };
-    // Of meshes and ready solids it is part of the source.
+    // For meshes and ready solids it is part of the source.
     let own = matches!(source, BodySource::Shape(_));
     let mut body = BodySpec::new(table.name.unwrap_or(usual), source, material);
     if baked {

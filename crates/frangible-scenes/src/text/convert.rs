@@ -1,4 +1,4 @@
-//! From keys to a scene.
+//! Conversion of the keys of a file to a scene.
 
 use std::path::Path;
 

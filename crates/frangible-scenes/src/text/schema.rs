@@ -129,7 +129,7 @@ pub(super) struct SupportTable {
     pub(super) axes: Option<String>,
 }
 
-/// A plane; what lies behind it is held.
+/// A plane; the part of the body behind it is held.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct PlaneTable {

@@ -33,7 +33,7 @@ pub(super) struct WeaknessTable {
     weak_points: Option<OneOrTwo>,
 }
 
-/// A plane; what lies behind it belongs to the zone.
+/// A plane; the part of the body behind it belongs to the zone.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct PlaneTable {

@@ -1,4 +1,4 @@
-//! Scene files: what they say, what they refuse, and that writing one loses nothing.
+//! Scene files: their meaning, their errors, and that writing one loses nothing.
 
 use std::path::Path;
 

@@ -236,7 +236,7 @@ fn nothing_that_is_cut_short_or_scrambled_makes_it_panic() {
         if let Ok(scrambled) = String::from_utf8(bytes)
             && let Ok(scene) = parse_scene(&scrambled, Path::new(""))
         {
-            // What is accepted is sound, and means the same when written.
+            // An accepted file is sound, and means the same when written.
             scene.validate().unwrap();
         }
     }
