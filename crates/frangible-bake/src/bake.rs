@@ -66,7 +66,7 @@ pub struct BakeSpec {
     pub groups: Vec<Group>,
     /// The surface as its author drew it, m, in the frame of the shape; only carried along.
     pub render: Option<RenderSurface>,
-    /// Ends the bake early when told to from elsewhere, default never.
+    /// Token by which another thread ends the bake early, default never.
     pub cancel: CancelToken,
 }
 

@@ -152,7 +152,7 @@ pub enum BakeError {
         /// The most that is allowed.
         limit: f64,
     },
-    /// The caller wanted no more of it.
+    /// The caller cancelled the bake.
     #[error("the bake was cancelled")]
     Cancelled,
     /// A point of the fracture mesh too far from the analysis mesh.

@@ -1,7 +1,7 @@
 //! Number of modes that a blow on the body follows through time.
 //!
 //! The others answer the force of the moment statically, q = ξ F/λ: a mode much faster than the blow does just that, and costs
-//! no time steps. So the number hangs on the blow. What is taken here is a hard one: a steel ball of a tenth of the body's mass
+//! no time steps. So the number depends on the blow. A hard one is assumed: a steel ball of a tenth of the body's mass
 //! with a radius of 10 mm at 5 m/s, Hertz' duration on a flat place, a half-sine of force inwards along the normal. A softer or
 //! slower one lasts longer, and needs fewer.
 //!

@@ -11,7 +11,7 @@ use frangible_mesh::{InputMesh, Similarity};
 /// curved walls by chords, while the next layer of nodes is most of an edge away.
 const SHARE_OF_EDGE: f64 = 0.2;
 
-/// A named part of a body, m, in the frame of the shape: what [`Region::Group`](crate::Region::Group) holds.
+/// A named part of a body, m, in the frame of the shape, which [`Region::Group`](crate::Region::Group) holds.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Group {
     /// Its name.

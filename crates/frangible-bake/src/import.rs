@@ -26,7 +26,7 @@ pub struct ImportOptions {
     /// Most tetrahedra, default 250 000 or three times `tets`, whichever is more.
     pub most: Option<usize>,
     /// Thickness of a wall along the mesh's surface, m, half of it on each side, instead of a filled inside; `None`
-    /// (default): the body is what the mesh encloses. Such a body is not drawn with its author's surface, which lies in the
+    /// (default): the body is the solid that the mesh encloses. Such a body is not drawn with its author's surface, which lies in the
     /// middle of the wall.
     pub wall: Option<f64>,
 }

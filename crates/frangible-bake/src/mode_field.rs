@@ -1,7 +1,7 @@
-//! A vibration mode as fields on the body, for those who look at it: displacement and linear stress at points.
+//! A vibration mode as fields on the body, to be looked at: displacement and linear stress at points.
 //!
 //! Stresses to be looked at are means at the nodes, since the stress of single elements jumps and shows as blotches; the run
-//! time keeps that of the elements.
+//! time keeps the stress of the elements.
 
 use frangible::glam::{Mat3, Vec3};
 use frangible::internals::asset::EmbeddedPoint;
@@ -139,7 +139,7 @@ fn value_and_gradient(asset: &Asset, field: &[Vec3], point: &EmbeddedPoint) -> (
     }
     (value, gradient)
 }
-/// Von Mises' equivalent of a stress, √(3 J₂): what a bar under this much tension would feel of change of shape.
+/// Von Mises' equivalent of a stress, √(3 J₂): the tension of a bar that is distorted as much.
 #[must_use]
 pub fn von_mises(stress: &Symmetric3) -> f32 {
     let ([xx, yy, zz], [xy, yz, zx]) = (stress.diagonal, stress.off);

@@ -1,4 +1,4 @@
-//! Parts of the search for modes, for those who tell how long each took.
+//! Parts of the search for modes, by which its time is reported.
 
 use std::fmt;
 

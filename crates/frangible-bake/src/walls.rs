@@ -1,4 +1,4 @@
-//! Thin walls behind the outer surface: how thick, how curved, and how far to their edge.
+//! Thin walls behind the outer surface: their thickness, curvature, and distance to their edge.
 //!
 //! A hit on a wall bends it most within a few thicknesses of the contact, where no mode resolves it; the run time adds that
 //! part from these numbers. All of them come from the surface alone, so that shapes meshed by a rule and meshes from files are
@@ -12,7 +12,7 @@
 //! exact for spheres and tubes however far it reaches, and facets average out. The middle surface is half a thickness away.
 //!
 //! **Margin.** Fronts that start where the wall ends: at a crease, where no parallel face is behind it, where it is a third
-//! thicker or thinner, where its radius falls below [`SLENDER`] thicknesses. What is held is another such edge.
+//! thicker or thinner, where its radius falls below [`SLENDER`] thicknesses. A held part is another such edge.
 //!
 //! **What is a wall.** A connected stretch that a disc of radius [`SLENDER`] thicknesses fits into. So a pane, a plate, the side
 //! of a glass is one; a cube, a brick, a ball, a hammer's head and the rim of a pane are none.

@@ -1,6 +1,6 @@
-//! The meshes of bodies and of their pieces, and what is asked of them.
+//! The meshes of bodies and of their pieces, and queries on them.
 //!
-//! - [`TetMesh`]: linear tetrahedra with their neighbours; [`TriMesh`]: the closed surface of a piece; [`RenderMesh`]: what is drawn of it;
+//! - [`TetMesh`]: linear tetrahedra with their neighbours; [`TriMesh`]: the closed surface of a piece; [`RenderMesh`]: its drawn mesh;
 //! - [`RenderSurface`]: the surface that an author drew, and [`RenderIndex`], which divides it among the pieces;
 //! - [`TriangleTree`]: the closest point of a surface; [`AlongSurface`]: distances along one; [`MassProperties`]: mass, centre and inertia;
 //! - [`merged_parts`], [`thinned`], [`bounds`] and [`box_of`]: convex parts made fewer and simpler for colliders;

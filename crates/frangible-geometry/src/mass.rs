@@ -45,7 +45,7 @@ impl MassProperties {
         }
     }
 
-    /// Mass properties of what a closed surface encloses, of one density, kg/m³, given the corners of its triangles: the tetrahedra of
+    /// Mass properties of the solid that a closed surface encloses, of one density, kg/m³, given the corners of its triangles: the tetrahedra of
     /// the triangles with the origin.
     pub fn of_surface(density: f64, triangles: impl Iterator<Item = [DVec3; 3]>) -> Self {
         let (mut volume, mut first) = (0.0, DVec3::ZERO);
@@ -79,7 +79,7 @@ impl MassProperties {
         }
     }
 
-    /// n_aᵀ K n_b, 1/kg: what a unit impulse at one (point, unit direction) changes the speed along another by (both in the
+    /// n_aᵀ K n_b, 1/kg: the change of speed along one (point, unit direction) by a unit impulse along another (both in the
     /// frame of the piece), rotation included.
     #[must_use]
     pub fn inverse_mass_between(&self, a: (DVec3, DVec3), b: (DVec3, DVec3)) -> f64 {

@@ -21,7 +21,7 @@ pub struct RenderMesh {
     /// [`box_projection`] of the place in the parent's body frame, m.
     pub uvs: Vec<[f32; 2]>,
     /// Vertices of each triangle, counter-clockwise seen from outside. The first [`RenderMesh::outer_triangles`]
-    /// are the author's surface, the rest crack faces and what sews the two together.
+    /// are the author's surface, the rest crack faces and the triangles that sew the two together.
     pub triangles: Vec<[u32; 3]>,
     /// Number of triangles, from the first, on the author's surface.
     pub outer_triangles: usize,

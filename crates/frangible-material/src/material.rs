@@ -104,8 +104,8 @@ impl Material {
         }
     }
 
-    /// Depth of the flaw that a strength R, Pa, belongs to, m: `a = (K_Ic / Y R)² / π` (Griffith 1921), where a fracture energy is this, J/m², and the flaw
-    /// long and shallow, Y = 1.12.
+    /// Depth of the flaw that a strength R, Pa, belongs to, m: `a = (K_Ic / Y R)² / π` (Griffith 1921), for this fracture energy, J/m², and a long,
+    /// shallow flaw, Y = 1.12.
     #[must_use]
     pub fn flaw_depth(&self, fracture_energy: f64, strength: f64) -> f64 {
         let toughness_squared = fracture_energy * self.contact_modulus();
@@ -137,7 +137,7 @@ impl Material {
         0.92 * (self.shear_modulus() / self.density).sqrt()
     }
 
-    /// Plane-strain modulus E/(1−ν²), Pa: what a Hertz contact feels.
+    /// Plane-strain modulus E/(1−ν²), Pa: the stiffness of the material in a Hertz contact.
     #[must_use]
     pub fn contact_modulus(&self) -> f64 {
         self.youngs_modulus / (1.0 - self.poisson_ratio * self.poisson_ratio)

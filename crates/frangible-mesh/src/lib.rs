@@ -1,6 +1,6 @@
 //! Any surface or signed distance in, sound tetrahedra out.
 //!
-//! A mesh file becomes an [`InputMesh`] (what is drawn, kept as it is), is repaired to a [`Surface`] (what is
+//! A mesh file becomes an [`InputMesh`] (the drawn mesh, kept as it is), is repaired to a [`Surface`] (of the
 //! solid), becomes a [`Solid`] by its generalised winding number, and is filled with tetrahedra.
 //!
 //! The mesher is a crate of its own because it needs no finite elements: its tests and fuzz targets build in seconds, and it is

@@ -1,4 +1,4 @@
-//! Tetrahedra from a file → a body, or the reason why not.
+//! Mending of tetrahedra from a file: a body, or the reason why they are none.
 //!
 //! Imported tetrahedra are mended or refused by element number and are never meshed anew, since whoever brings them chose them.
 
@@ -99,7 +99,7 @@ pub enum TetInputError {
 pub struct TetMend {
     /// Tetrahedra that were turned inside out.
     pub turned: usize,
-    /// Nodes that were exactly where another is.
+    /// Nodes at exactly the same place as another.
     pub welded: usize,
     /// Nodes that no tetrahedron used.
     pub unused: usize,
@@ -161,7 +161,7 @@ pub struct MendedTets {
 /// Turns, welds, drops and checks.
 ///
 /// # Errors
-/// What cannot be meant as one body: see [`TetInputError`].
+/// Tetrahedra that cannot be meant as one body: see [`TetInputError`].
 pub fn mend_tets(input: &TetInput) -> Result<MendedTets, TetInputError> {
     check(input)?;
     let mut mend = TetMend {

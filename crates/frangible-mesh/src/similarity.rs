@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::{InputMesh, Surface};
 
-/// `p ↦ scale · p + shift`: what keeps a drawn mesh and its solid surface aligned when both get it.
+/// `p ↦ scale · p + shift`: applied to a drawn mesh and its solid surface alike, it keeps the two aligned.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Similarity {
     /// Factor of all lengths, above 0.

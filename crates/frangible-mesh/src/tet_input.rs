@@ -23,7 +23,7 @@ pub struct TetInput {
 /// A named part of a mesh: a physical group, a region, a marker.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TetGroup {
-    /// Its name in the file; “surface 3” or “volume 3” where it only has a number there.
+    /// Its name in the file; “surface 3” or “volume 3” if it only has a number there.
     pub name: String,
     /// 2: its members are faces; 3: tetrahedra.
     pub dimension: u8,

@@ -55,11 +55,11 @@ pub struct TetOptions {
     pub most: usize,
     /// Thickness of the thinnest walls, m, if known: the lattice is refined until they hold [`CELLS_PER_WALL`] cells.
     pub wall: Option<f64>,
-    /// Move surface vertices onto sharp edges and corners, default true.
+    /// Moves surface vertices onto sharp edges and corners, default true.
     pub snap: bool,
     /// Seed of the irregularity that takes the lattice out of the mesh; `None` (default): leave the lattice.
     pub irregular: Option<u64>,
-    /// Compare the volume with the one counted on a grid four times as fine, default true.
+    /// Compares the volume with the one counted on a grid four times as fine, default true.
     pub check_volume: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Telling how far the work has come, and stopping it.
+//! Progress of the work, and its cancellation.
 
 use std::ops::ControlFlow;
 

@@ -15,7 +15,7 @@ pub enum Breaking {
     #[default]
     InsideStep,
     /// After the step, which stands: the whole body takes the blow, then its fragments go on with its motion. A body judged in
-    /// the step of the blow gives its striker back what the engine took too much, and the striker meets the pieces in the
+    /// the step of the blow gives its striker back the excess that the engine took, and the striker meets the pieces in the
     /// next step; to a body judged later a ball loses as much as if it had held. No copy, no second step; for scenes of
     /// hundreds of bodies.
     AfterStep {
@@ -53,7 +53,7 @@ pub struct PieceConfig {
     pub delay: f32,
     /// Time from its birth until it has the modes that take longer to find, s. Default 0.15.
     pub later: f32,
-    /// Find new modes for bodies that are cracked but whole, too. Default on.
+    /// Finds new modes for bodies that are cracked but whole, too. Default on.
     pub cracked: bool,
     /// Work of other threads, s, that goes into pieces in a second of the world, for each of the two times above. Work beyond it,
     /// by what the [model](frangible::internals::PieceModel::expected_times) expects, is due later than they say, heavy fragments first.
@@ -113,13 +113,13 @@ pub struct WorldConfig {
     pub length_unit: f32,
     /// Solver iterations per step, 1 or more. Default 4.
     pub solver_iterations: usize,
-    /// Bodies never move faster than this, m/s. Default 400.
+    /// Largest speed of bodies, m/s. Default 400.
     pub max_speed: f32,
     /// Approach speed from which a contact is an impact, m/s. Default 0.5; raising it asks the fracture less often.
     pub impact_speed: f32,
-    /// Contact points of one pair nearer than this are one contact, m. Default 5e-4.
+    /// Distance below which contact points of one pair are one contact, m. Default 5e-4.
     pub merge_distance: f32,
-    /// A fragment gets one convex hull when hull volume / piece volume is at most this. Default 1.15.
+    /// Hull volume over piece volume up to which a fragment gets one convex hull. Default 1.15.
     pub hull_volume_ratio: f32,
     /// Detail of the collider of a whole body; that of a box is a box. Default: all the convex cells of the bake, 128 points each.
     pub whole_collider: ColliderDetail,
@@ -139,16 +139,16 @@ pub struct WorldConfig {
     /// A joint of a broken body moves to the nearest fragment within this distance of its anchor, m; else it is
     /// released. Default 5e-3.
     pub joint_reach: f32,
-    /// Fragments lighter than this are debris: a box for a collider, removed when too many. kg, default 1e-4, a
+    /// Mass below which fragments are debris, kg: a box for a collider, removed when there are too many. Default 1e-4, a
     /// chip of glass 3 mm wide.
     pub debris_mass: f32,
-    /// Fragments lighter than this are dust: debris without a collider, so that it falls through everything, costs next to
-    /// nothing, and is removed after a second. kg, default 0: none.
+    /// Mass below which fragments are dust, kg: debris without a collider, so that it falls through everything, costs next to
+    /// nothing, and is removed after a second. Default 0: none.
     pub dust_mass: f32,
-    /// Debris kept at most; the oldest goes first. Default 200.
+    /// Largest number of pieces of debris; the oldest goes first. Default 200.
     pub max_debris: usize,
-    /// Longest that a step may take in the mean of the last 32, s: while it takes longer, one in fifty pieces of debris goes in each, the oldest
-    /// first. Default infinity. With it two runs are no longer alike, as they hang on the speed of the machine.
+    /// Largest mean time of the last 32 steps, s: while they take longer, one in fifty pieces of debris goes in each, the oldest
+    /// first. Default infinity. With it two runs are no longer alike, as they depend on the speed of the machine.
     pub step_time: f32,
     /// Treatment of pieces that have rested for [`WorldConfig::rest_time`]: slept, or stayed within [`WorldConfig::rest_drift`] of their
     /// place, whatever the others of their heap do. Those that touch a body that can move and is no piece sleep on. Default
@@ -156,17 +156,17 @@ pub struct WorldConfig {
     pub at_rest: AtRest,
     /// Time that a piece has to rest before [`WorldConfig::at_rest`] applies, s. Default 2.
     pub rest_time: f32,
-    /// A piece that goes loses its collider and [fades](crate::BreakableWorld::fading) in this time, s. Default zero: it is gone at once.
+    /// Time in which a piece that is removed [fades](crate::BreakableWorld::fading) without its collider, s. Default zero: it is gone at once.
     pub fade_time: f32,
-    /// Bodies at most; a body whose fragments would not fit stays whole. Default 4000.
+    /// Largest number of bodies; a body whose fragments would not fit stays whole. Default 4000.
     pub max_bodies: usize,
-    /// Ask after every step what bodies carry, and break those that carry too much. Default on.
+    /// Checks resting loads after every step, and breaks bodies that carry too much. Default on.
     pub resting_loads: bool,
     /// Moment at which a body gives way to its fragments. Default inside the step.
     pub breaking: Breaking,
     /// Settings for fragments that break again, if the world has a [model of how they vibrate](crate::BreakableWorld::set_piece_model).
     pub pieces: PieceConfig,
-    /// Also record the impacts that broke nothing, see [`crate::BreakableWorld::held`]. Default off.
+    /// Also records the impacts that broke nothing, see [`crate::BreakableWorld::held`]. Default off.
     pub record_held: bool,
     /// Switches and numbers of the fracture.
     pub fracture: FractureConfig,
@@ -213,7 +213,7 @@ impl Default for WorldConfig {
 }
 
 impl WorldConfig {
-    /// The default without what changes how bodies move that cannot break: no rolling resistance, and sleep left to Rapier. So steps
+    /// The default without everything that changes the motion of unbreakable bodies: no rolling resistance, and sleep left to Rapier. So steps
     /// without breakable bodies are Rapier's own, bit for bit.
     #[must_use]
     pub fn plain() -> Self {

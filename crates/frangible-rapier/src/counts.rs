@@ -12,7 +12,7 @@ pub struct LoadCounts {
     pub asked: u64,
     /// Contacts in them.
     pub contacts: u64,
-    /// Refused by their impulses and how long they act, free of time ([`LookedAt::Sizes`], [`LookedAt::Impulses`]); steady
+    /// Refused by the sizes and durations of their impulses, without time steps ([`LookedAt::Sizes`], [`LookedAt::Impulses`]); steady
     /// loads by the size of their forces.
     pub by_impulses: u64,
     /// Refused by the amplitudes of the modes and bounds of the whole body, at every time step ([`LookedAt::Amplitudes`]).

@@ -27,7 +27,7 @@ pub enum WorldError {
         /// The value given.
         value: f32,
     },
-    /// A crushing pressure of which contacts would last longer than they are followed, Pa.
+    /// A crushing pressure so low that contacts would last longer than they are followed, Pa.
     #[error("crushing pressure is {0} Pa; it must be 10 kPa or more, and may be infinite")]
     CrushingPressure(f32),
     /// Restitution out of 0..=1.

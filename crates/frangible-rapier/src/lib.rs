@@ -23,58 +23,60 @@
 //! `examples/glass.rs` is a whole game: a glass falls and breaks. A game that has a Rapier world already keeps it, and steps it by a
 //! [`Breaker`] in place of Rapier's pipeline: `examples/window.rs`.
 //!
-//! # What breaks a body
-//! Impacts, with their friction, on one body or on two breakable ones that meet. What it carries: after every step the
-//! forces of its resting contacts, and a held body's weight, are put to [`frangible::internals::rest()`];
-//! [`BreakableWorld::rest_margin`] says how far it is from breaking. [`BreakableWorld::blast`] and
-//! [`BreakableWorld::fracture_at`]. [`BreakEvent::cause`] tells which it was. [`BreakableWorld::would_break`] asks before.
+//! # Causes of breaks
+//! - Impacts, with their friction, on one body or on two breakable ones that meet.
+//! - Loads: after every step the forces of a body's resting contacts, and a held body's weight, are put to [`frangible::internals::rest()`];
+//!   [`BreakableWorld::rest_margin`] says how far it is from breaking.
+//! - [`BreakableWorld::blast`] and [`BreakableWorld::fracture_at`].
 //!
-//! # What it keeps
+//! [`BreakEvent::cause`] tells which it was. [`BreakableWorld::would_break`] asks before.
+//!
+//! # Guarantees
 //! - Mass, centre and inertia of a fragment are the exact ones of the piece, never those of its collider.
 //! - Replacing a body by its fragments changes neither momentum nor angular momentum, and adds no kinetic energy.
 //! - Impulses of blows are equal and opposite on body and striker, and never give energy.
-//! - The cracks' energy is taken from what the blow took, then from the motion of fragments and striker relative to each other.
+//! - The cracks' energy is taken from the energy that the blow took, then from the motion of fragments and striker relative to each other.
 //! - No fragment's centre of mass passes through a fixed body, and no ball through anything.
 //! - Two runs give the same bits, with the feature `portable`, which is on by default, on any two machines: [`BreakableWorld::fingerprint`]
 //!   tells.
 //!
-//! # What it costs
+//! # Cost
 //! A step copies the world only when a breakable body may be hit at [`WorldConfig::impact_speed`] or more
 //! (0.8 ms for 300 bodies); exchanging a body for 100 pieces costs about 8 ms, once, beside the break itself. Resting worlds pay one
-//! pass over the velocities. [`BreakableWorld::timings`] tells where a step's time went.
+//! pass over the velocities. [`BreakableWorld::timings`] has the times of the parts of a step.
 //!
 //! # Many bodies
 //! For scenes of hundreds of bodies take [`Breaking::AfterStep`]: no copy, no second step, work spread over steps by a
 //! budget and over threads; [`ColliderDetail`] for light colliders; [`WorldConfig::dust_mass`] and
-//! [`WorldConfig::debris_mass`] for what is too small to matter; the feature `parallel` for Rapier's own threads. All of it
+//! [`WorldConfig::debris_mass`] for pieces too small to matter; the feature `parallel` for Rapier's own threads. All of it
 //! gives the same bits on any number of threads. The china shop of `frangible_lab::bench` does it for a thousand.
 //!
-//! # What rests
-//! [`WorldConfig::at_rest`] says what becomes of pieces that stay where they are: they sleep, become fixed, go, or are merged into one fixed
-//! body with one compound collider for each body that broke ([`AtRest::Merge`]). A merged piece keeps its handle and its pose, so whoever
-//! draws it has nothing to do ([`BreakableWorld::merged`] tells which they are). It comes loose before the step that may break it, by
+//! # Resting pieces
+//! Pieces that stay in their place sleep, become fixed, are removed, or are merged into one fixed body with one compound collider for each body
+//! that broke ([`AtRest::Merge`]), as [`WorldConfig::at_rest`] says. A merged piece keeps its handle and its pose, so that drawing needs no change
+//! ([`BreakableWorld::merged`] lists them). It comes loose before the step that may break it, by
 //! [`BreakableWorld::loosen`], or when its body is made dynamic. A heap of 300 pieces that jostle costs 17 ms in a step, as fixed bodies
 //! 0.9 ms, merged 0.3 ms; with a copy of the world 30, 6.5 and 1.2 ms (`benches/step.rs`, beside other work).
 //!
-//! # What is held
+//! # Held bodies
 //! A body whose asset has supports (a pane in its frame, a shelf in its wall) is fixed until it breaks; then the
 //! fragments with a supported node stay, the others fall.
 //!
 //! # Fragments that break again
-//! With a model of how they vibrate ([`BreakableWorld::set_piece_model`]; module `pieces` of `frangible-bake` has several) fragments
+//! With a model that finds their modes ([`BreakableWorld::set_piece_model`]; module `pieces` of `frangible-bake` has several) fragments
 //! become breakable bodies [`PieceConfig::delay`] after they were born, within limits of generation, mass and size; below
 //! them they are plain bodies. Bodies that are cracked but whole get new, lower modes the same way.
 //!
-//! # What it does not do yet
+//! # Limitations
 //! Contacts that a bound refuses unseen, and blows judged in a later step than their own, keep the engine's impulse and
 //! restitution. Two breakable bodies that meet both vibrate under one force; the mean of their answers counts.
 //! Without a model fragments are plain bodies: they do not break again. Multibody joints of a broken body are released,
 //! impulse joints move to the fragment that holds them; neither loads a body. A blow of less than
-//! [`WorldConfig::impact_speed`] breaks nothing: only what presses for four steps in a row counts as carried.
+//! [`WorldConfig::impact_speed`] breaks nothing: only a push that lasts four steps in a row counts as a load.
 //! Rapier's simplified friction keeps no friction impulse of a blow; with several partners at once it is estimated by
 //! Coulomb's law (`FrictionModel::Coulomb` keeps it all). Breakable bodies and fragments are swept against fixed bodies
 //! and balls only, not against each other. A merged piece breaks by blows, blasts and scripts, but not
-//! under what is laid on it. Rapier limits spin to an eighth of a turn per step, and applies a contact's
+//! under a load that is laid on it. Rapier limits spin to an eighth of a turn per step, and applies a contact's
 //! impulse at the arms of the step's start: chips that would spin faster lose angular momentum, and a blow during which
 //! bodies move centimetres per step changes the total by some percent. Shorter steps cure both. A ball that breaks a pane at 20 m/s
 //! goes on with 12.1 m/s at 240 steps per second and with 13.6 at 1920, as contacts with the pieces are found once in a step

@@ -8,7 +8,7 @@ use web_time::Instant;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct StepTimings {
-    /// Rapier's step, of a step that was taken again the one that stands.
+    /// Rapier's step; if it was taken again, the one that stands.
     pub rigid: f64,
     /// Rapier's steps that were undone.
     pub undone: f64,
@@ -27,7 +27,7 @@ pub struct StepTimings {
 }
 
 impl StepTimings {
-    /// All but Rapier's step: what breaking costs.
+    /// Time of all but Rapier's step: the cost of breaking.
     #[must_use]
     pub fn ours(&self) -> f64 {
         let parts = [

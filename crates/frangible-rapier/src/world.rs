@@ -166,7 +166,7 @@ impl BreakableWorld {
         self.break_function = Arc::new(function);
     }
 
-    /// Replaces [`frangible::internals::rest()`] by another judge of what bodies carry.
+    /// Replaces [`frangible::internals::rest()`] by another judge of resting loads.
     pub fn set_rest_function(
         &mut self,
         function: impl Fn(&Body, &[Force], Vec3, &FractureConfig) -> Result<Outcome, InputError>

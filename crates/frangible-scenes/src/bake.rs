@@ -102,7 +102,7 @@ fn open_body(body: &BodySpec, files: &Files) -> Result<Opened, SceneError> {
 /// Bakes sources read by [`open_sources`].
 ///
 /// # Errors
-/// What cannot be baked.
+/// A body that cannot be baked.
 pub fn bake_opened(
     scene: &Scene,
     opened: Vec<Opened>,
@@ -114,7 +114,7 @@ pub fn bake_opened(
 /// Bakes sources read by [`open_sources`], until somebody else calls [`CancelToken::cancel`].
 ///
 /// # Errors
-/// What cannot be baked; that it was cancelled.
+/// A body that cannot be baked; that it was cancelled.
 pub fn bake_until(
     scene: &Scene,
     opened: Vec<Opened>,

@@ -9,7 +9,7 @@ use frangible_bake::{Support, USUAL_MODES};
 use crate::rescale::Rescale;
 use crate::source::BodySource;
 
-/// A breakable body and how it starts.
+/// A breakable body, and its state at the start.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BodySpec {
     /// Name, also of its nodes in the animation.
@@ -43,10 +43,10 @@ pub struct BodySpec {
     /// Weakness painted with the vertex colours of its mesh; [`BodySpec::weakness`] lies over it. Not part of the bake, but the
     /// colours are.
     pub paint: Vec<Paint>,
-    /// Weibull modulus of the scatter of its strength, see [`frangible::internals::Fields::weibull_modulus`]; 0: none. The material's preset
-    /// says it if nothing does here ([`frangible::internals::Preset::weibull_modulus`]).
+    /// Weibull modulus of the scatter of its strength, see [`frangible::internals::Fields::weibull_modulus`]; 0: none. That of the
+    /// material preset if none is given ([`frangible::internals::Preset::weibull_modulus`]).
     pub weibull_modulus: Option<f64>,
-    /// Volume of the specimen whose strength its material's is, m³; that of the preset if none is given.
+    /// Volume of the specimen whose strength is its material's, m³; that of the preset if none is given.
     pub specimen: Option<f64>,
     /// Static fatigue: the loss of strength under loads that last; that of the material preset if none is given.
     pub fatigue: Option<Fatigue>,

@@ -1,4 +1,4 @@
-//! A scene up to its first break, for those who want the impact rather than what came of it.
+//! A scene up to its first break: the impact rather than the pieces.
 
 use std::collections::BTreeMap;
 
@@ -39,10 +39,10 @@ pub struct FirstBreak {
 }
 
 /// Plays the scene with its baked bodies until an impact breaks one of them; `progress` gets the share of its longest duration.
-/// None where nothing breaks.
+/// None if nothing breaks.
 ///
 /// # Errors
-/// What [`play`](crate::play()) refuses.
+/// As [`play`](crate::play()).
 pub fn first_break(
     scene: &Scene,
     baked: &[BakedBody],
@@ -139,7 +139,7 @@ impl FirstBreak {
         stills
     }
 
-    /// A still of the whole body with an arrow in the direction of the impulse, its tip where it acts; seen as `like` is.
+    /// A still of the whole body with an arrow in the direction of the impulse, its tip where it acts; seen from the same place as `like`.
     #[must_use]
     pub fn still_of_impact(&self, like: &Recording) -> Recording {
         let mut still = self.still(&[], 0.0);

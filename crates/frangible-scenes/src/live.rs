@@ -58,7 +58,7 @@ pub enum ThingKind {
         /// Position of its centre of mass in that thing, m, along the thing's axes.
         birth: Vec3,
     },
-    /// Something that was thrown.
+    /// Something that was thrown or swung.
     Projectile,
 }
 
@@ -110,7 +110,7 @@ impl LiveScene {
         Ok(Self::of_stage(scene, set_up(scene, baked)?))
     }
 
-    /// The scene as it stands before its first step, its bodies of these kinds. What the scene says of their weakness is not looked at.
+    /// The scene as it stands before its first step, its bodies of these kinds. The weakness in the scene's description is not looked at.
     ///
     /// # Errors
     /// A quantity of the scene that cannot be used, or not as many kinds as the scene has bodies.
@@ -170,8 +170,8 @@ impl LiveScene {
         live
     }
 
-    /// Takes one step: 1/3840 s while something may break and just after, else 1/240 s. What broke is in the world's
-    /// [`breaks`](BreakableWorld::breaks), what held in [`held`](BreakableWorld::held). The scene's own projectiles come and
+    /// Takes one step: 1/3840 s while something may break and just after, else 1/240 s. Breaks of the step are in the world's
+    /// [`breaks`](BreakableWorld::breaks), impacts that broke nothing in [`held`](BreakableWorld::held). The scene's own projectiles come and
     /// go with the pictures of 1/60 s, as in [`play`](crate::play()).
     ///
     /// # Errors
@@ -281,8 +281,8 @@ impl LiveScene {
         }
     }
 
-    /// The shapes of the pieces of a thing, in its own frame, with where their centres of mass lay in it, m; for a break that
-    /// did not happen here. None for what cannot break.
+    /// The shapes of the pieces of a thing, in its own frame, each with the position of its centre of mass in it, m; for a break that
+    /// did not happen here. None for a thing that cannot break.
     #[must_use]
     pub fn shapes(&self, thing: &Thing, fracture: &Fracture) -> Vec<(Vec3, RecordedMesh)> {
         let Some(surfaces) = &thing.surfaces else {

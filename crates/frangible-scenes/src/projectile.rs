@@ -11,7 +11,7 @@ pub struct Projectile {
     pub mass: f64,
     /// Radius of the ball or of the hammer's striking face, m.
     pub radius: f64,
-    /// Speed when it arrives, m/s.
+    /// Speed on arrival, m/s.
     pub speed: f64,
     /// Material preset.
     pub material: String,
@@ -19,7 +19,7 @@ pub struct Projectile {
     pub target: usize,
     /// Point that it is aimed at, m from the body's centre of mass, world axes.
     pub at: Vec3,
-    /// Direction of flight, any length.
+    /// Direction of flight, of any length.
     pub toward: Vec3,
     /// Time at which it sets out, s after the beginning.
     pub delay: f64,

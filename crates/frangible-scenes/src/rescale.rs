@@ -24,7 +24,7 @@ pub struct MaterialEdit {
     pub preset: Option<String>,
     /// Its name, if another.
     pub name: Option<String>,
-    /// The numbers of [`MaterialEdit::KEYS`], where another.
+    /// The numbers of [`MaterialEdit::KEYS`] that are changed.
     pub numbers: [Option<f64>; 15],
 }
 

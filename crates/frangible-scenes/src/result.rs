@@ -49,7 +49,7 @@ pub struct HeldRecord {
 pub struct BlowRecord {
     /// Number of the body, from 0.
     pub body: usize,
-    /// 0 where it hit the body itself, 1 for a piece of it, 2 for a piece of that.
+    /// 0 if it hit the body itself, 1 for a piece of it, 2 for a piece of that.
     pub generation: u32,
     /// Simulated time, s.
     pub time: f64,
@@ -90,7 +90,7 @@ impl BlowRecord {
 pub struct BreakRecord {
     /// Number of the body, from 0.
     pub body: usize,
-    /// 0 where it was the body itself that broke, 1 for a piece of it, 2 for a piece of that.
+    /// 0 if the body itself broke, 1 for a piece of it, 2 for a piece of that.
     pub generation: u32,
     /// Simulated time, s.
     pub time: f64,

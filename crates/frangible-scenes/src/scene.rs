@@ -13,7 +13,7 @@ use crate::projectile::Projectile;
 pub struct Scene {
     /// Name, also of the files it makes.
     pub name: String,
-    /// One line about what it shows.
+    /// One line about its subject.
     pub summary: String,
     /// Bodies that may break; at least one.
     pub bodies: Vec<BodySpec>,

@@ -140,7 +140,7 @@ fn ending(path: &Path) -> Option<String> {
     Some(path.extension()?.to_str()?.to_ascii_lowercase())
 }
 
-/// A source that has been read: all that can be wrong with its file is known.
+/// A source that has been read: all faults of its file are known.
 #[derive(Clone, Debug)]
 pub enum Opened {
     /// A body to be baked.

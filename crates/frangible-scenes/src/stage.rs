@@ -1,4 +1,4 @@
-//! A scene's bodies and projectiles where they start.
+//! A scene's bodies and projectiles at the start.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! The microseconds of a break: how tension runs over the surface of the body, and the cracks with it.
+//! The microseconds of a break: the tension that runs over the surface of the body, and the cracks with it.
 
 use frangible::glam::Vec3;
 use frangible::internals::stress::largest_eigenvalue;
@@ -33,7 +33,7 @@ pub struct Wave {
 pub struct WaveMoment {
     /// Time since the blow began, s.
     pub time: f64,
-    /// Largest principal stress at each place of the surface, Pa; below zero where all are pressures.
+    /// Largest principal stress at each place of the surface, Pa; below zero if all are pressures.
     pub tension: Vec<f32>,
     /// Force of all contacts, N.
     pub force: f64,

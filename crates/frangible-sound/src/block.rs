@@ -1,4 +1,4 @@
-//! The next block of a synthesiser: what happens in it, what rings, and its ways to the ears.
+//! The next block of a synthesiser: its events, its ringing resonators, and their ways to the ears.
 
 use crate::bank::BLOCK;
 use crate::listener::Ways;

@@ -35,7 +35,7 @@ pub struct Mode {
 }
 
 impl Mode {
-    /// A mode with its losses: natural frequency, Hz; its motion on a sphere; what its body is made of and held by.
+    /// A mode with its losses: natural frequency, Hz; its motion on a sphere; the damping and the hold of its body.
     #[must_use]
     pub fn new(
         frequency: f64,

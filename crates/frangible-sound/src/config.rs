@@ -19,7 +19,7 @@ pub struct SynthConfig {
 }
 
 impl SynthConfig {
-    /// 48 kHz without a floor.
+    /// Settings for 48 kHz without a floor.
     #[must_use]
     pub fn new(listener: Listener) -> Self {
         Self {
@@ -31,7 +31,7 @@ impl SynthConfig {
         }
     }
 
-    /// For a game: a budget of 1000 resonators and 64 strikes per block.
+    /// These settings for a game: a budget of 1000 resonators and 64 strikes per block.
     #[must_use]
     pub fn live(self) -> Self {
         Self {

@@ -115,7 +115,7 @@ const KNOWN: [Known; 12] = [
 ];
 
 impl AudibleDamping {
-    /// The damping of a material by its name, and where it was published.
+    /// The damping of a material by its name, and its source.
     #[must_use]
     pub fn published(name: &str) -> Option<(Self, &'static str)> {
         let known = KNOWN.iter().find(|known| known.names.contains(&name))?;

@@ -1,8 +1,8 @@
-//! The air that an ellipsoid pushes along: what a body that is shaken as a whole sounds like at low frequencies.
+//! The air that an ellipsoid pushes along, by which a shaken body sounds at low frequencies.
 
 use std::f64::consts::PI;
 
-/// For semi-axes, m: the volume of the ellipsoid and of the air that moves with it, m³, when it moves along each axis. Times the density of
+/// Volume of an ellipsoid of these semi-axes, m, and of the air that moves with it, m³, when it moves along each axis. Times the density of
 /// the air and the acceleration this is its dipole moment. 2πa³ for a sphere, 8a³/3 for a thin disc across itself.
 /// Lamb, Hydrodynamics, §114: V (1 + α/(2−α)), α_i = abc ∫₀^∞ dλ / ((a_i²+λ) √((a²+λ)(b²+λ)(c²+λ))).
 #[must_use]

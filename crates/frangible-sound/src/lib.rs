@@ -1,20 +1,20 @@
-//! The sound of what breaks, from the same vibration modes and forces that break it: plain data in, samples out.
+//! The sound of breaking bodies, from the same vibration modes and forces that break them: plain data in, samples out.
 //!
-//! A [`Synth`] gets [bodies](Body), where they are, and what happens to them: [strikes](Strike) with their forces over time, which are those
-//! that the fracture found, cracks with their energy, breaks. It hands out pressures, Pa, at the ears. It knows no audio device and no threads, and the same
-//! calls give the same samples.
+//! A [`Synth`] gets [bodies](Body), their places and their events: [strikes](Strike) with their forces over time, which are those
+//! that the fracture found, cracks with their energy, breaks. It hands out pressures, Pa, at the ears. It knows no audio device and no threads,
+//! and the same calls give the same samples.
 //!
 //! - **Modes** are resonators, driven by the force itself, exactly between its values.
 //! - **Radiation** and direction come in closed form from an [equivalent sphere](EquivalentSphere): the motion of the surface on spherical
 //!   harmonics, times outgoing spherical waves.
-//! - **The motion as a whole** of what is struck is heard too: of small pieces, which ring too high for any ear, it is all that is.
-//! - **Damping** is [the ear's own](AudibleDamping), not the fracture's, with what is radiated and what supports take.
+//! - **The motion as a whole** of a struck body is heard too: small pieces, which ring too high for any ear, sound by it alone.
+//! - **Damping** is [the ear's own](AudibleDamping), not the fracture's, with the losses to the air and to supports.
 //! - **Pieces** without modes of their own ring as a [free plate](Plate) of their size.
 //! - **The floor** reflects and is struck itself; the [listener](Listener) has two ears, to which sound takes its time.
 //! - **The budget** lets the loudest ring and masked ones go, without a click.
-//! - **A scene** of such bodies, or a game's world, is heard by a [`Hearing`], which needs to be told what happened and nothing else.
-//! - **How loud it is played** is the caller's choice: [`wav()`] scales by a full scale, and for live play a soft [`Limiter`] bends what is too
-//!   loud and tells what it did.
+//! - **A scene** of such bodies, or a game's world, is heard by a [`Hearing`], which needs to be told the events and nothing else.
+//! - **The volume** is the caller's choice: [`wav()`] scales by a full scale, and for live play a soft [`Limiter`] bends pressures that are too
+//!   loud, and reports it.
 //!
 //! ```
 //! use std::sync::Arc;

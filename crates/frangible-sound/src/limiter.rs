@@ -5,9 +5,9 @@ use crate::error::{SoundError, checked_full_scale};
 /// Statistics of a limiter so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LimiterReport {
-    /// Loudest pressure that came, Pa.
+    /// Loudest pressure so far, Pa.
     pub peak: f64,
-    /// Samples that were made softer.
+    /// Number of samples that were reduced.
     pub limited: u64,
     /// Reduction of the loudest of them, dB; 0 if none.
     pub reduction: f64,

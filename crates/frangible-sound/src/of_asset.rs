@@ -1,4 +1,4 @@
-//! The sound of a baked body: its modes, and what a push at a point gives each of them.
+//! The sound of a baked body: its modes, and the force on each of them by a push at a point.
 //!
 //! Everything comes from the asset when it is made ready to sound, so that files grow by nothing and bakes take no longer.
 

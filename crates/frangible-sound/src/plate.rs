@@ -165,7 +165,7 @@ impl Plate {
         Self::new(name, sides, axes, material)
     }
 
-    /// A plate of these sides, m, turned so.
+    /// A plate of these sides, m, with this rotation.
     ///
     /// # Errors
     /// A side or a number of the material at fault.

@@ -90,7 +90,7 @@ impl Pulse {
         (self.value(k + 1) - self.value(k)) / self.time_step
     }
 
-    /// The force, N, and how fast it grows, N/s, at a time after its beginning, s.
+    /// The force, N, and its growth, N/s, at a time after its beginning, s.
     #[must_use]
     pub fn at(&self, time: f64) -> (f64, f64) {
         if time < 0.0 {

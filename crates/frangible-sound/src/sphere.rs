@@ -1,6 +1,6 @@
-//! The equivalent sphere: how the motion of a surface becomes sound, in closed form.
+//! The equivalent sphere, by which the motion of a surface becomes sound in closed form.
 //!
-//! A body's surface is spread over a sphere of the same outer area. Where a place of it goes is decided by the ellipsoid that has the surface's
+//! A body's surface is spread over a sphere of the same outer area. The place of each point on it follows from the ellipsoid of the surface's
 //! second moments, shrunk to a ball, so that both faces of a plate fill a half each. The flow through each place is kept. On the
 //! sphere it is a sum of spherical harmonics, and each of them sends a wave that is known exactly. Three choices are about bodies that are no
 //! spheres:

@@ -1,4 +1,4 @@
-//! The front door: bodies and what happens to them in, pressures out.
+//! The front door: bodies and events in, pressures out.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -96,7 +96,7 @@ impl Synth {
         self.voices.iter().flatten().map(|v| v.slots.len()).sum()
     }
 
-    /// Adds a body at a place, m, turned so, and returns its number.
+    /// Adds a body at a place, m, with this rotation, and returns its number.
     ///
     /// # Errors
     /// A number of the body or of its place at fault.
@@ -134,7 +134,7 @@ impl Synth {
         Ok(())
     }
 
-    /// Moves a body at a time, s. What rings of it comes from there within 128 samples.
+    /// Moves a body at a time, s. Its sound comes from there within 128 samples.
     ///
     /// # Errors
     /// There is no such body, or a number is not finite.
@@ -182,7 +182,7 @@ impl Synth {
         self.event(time, Event::Thump(place, pulse))
     }
 
-    /// Moves who listens at a time, s: what rings is heard from the new place within 128 samples.
+    /// Moves the listener at a time, s: all sound is heard from the new place within 128 samples.
     ///
     /// # Errors
     /// A place or a direction that cannot be used, or another number of channels than the synthesiser has.

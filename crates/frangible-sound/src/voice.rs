@@ -1,4 +1,4 @@
-//! One body that sounds: its resonators, what strikes it, and its ways to the ears.
+//! One body that sounds: its resonators, the strikes on it, and its ways to the ears.
 
 mod hit;
 mod ring;

@@ -1,4 +1,4 @@
-//! Columns of numbers and what Lanczos does with them.
+//! Columns of numbers, and the operations of Lanczos on them.
 
 use std::ops::{Index, IndexMut};
 

@@ -135,7 +135,7 @@ pub fn lowest_modes(
 /// The lowest modes of a body that is held. Shapes have an entry for every unknown, zero where it is held.
 ///
 /// # Errors
-/// What [`lowest_modes`] refuses, and [`BakeError::AllHeld`] when nothing is left to move.
+/// As [`lowest_modes`], and [`BakeError::AllHeld`] when nothing is left to move.
 pub fn lowest_supported_modes(
     system: &System,
     constraints: &Constraints,
@@ -145,11 +145,11 @@ pub fn lowest_supported_modes(
     search(system, constraints, wanted, Accuracy::BAKED, progress)
 }
 
-/// The lowest modes, found at once and less exactly, where somebody waits for them: frequencies are right to six digits, residuals of
-/// shapes may be a few per cent. Their bits are those of any other machine.
+/// The lowest modes, found quickly and less exactly while others wait for them: frequencies are right to six digits, residuals of
+/// shapes may be a few per cent. Their bits are the same on every machine.
 ///
 /// # Errors
-/// What [`lowest_supported_modes`] refuses; a residual counts as too large only above a tenth.
+/// As [`lowest_supported_modes`]; a residual counts as too large only above a tenth.
 pub fn quick_modes(
     system: &System,
     constraints: &Constraints,

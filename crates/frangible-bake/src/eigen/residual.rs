@@ -1,4 +1,4 @@
-//! Does a mode solve the eigenvalue problem? Checked for every mode that is given out.
+//! Check that a mode solves the eigenvalue problem, made for every mode that is given out.
 
 use faer::sparse::SparseColMat;
 

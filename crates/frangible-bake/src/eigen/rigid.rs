@@ -38,7 +38,7 @@ fn centre_of_mass(system: &System) -> DVec3 {
 }
 
 /// Displacements of the rigid motions that the constraints leave, one after another, 3 × nodes numbers each:
-/// [`rigid_motions`] of a free body, none of one that is clamped.
+/// [`rigid_motions`] of a free body, none of a clamped one.
 #[must_use]
 pub fn remaining_motions(system: &System, constraints: &Constraints) -> Vec<Vec<f64>> {
     let all = rigid_motions(system);

@@ -85,7 +85,7 @@ impl System {
         self.multiply_with(x, |value| value)
     }
 
-    /// |K| |x|: what the rounding of [`System::multiply`] is measured by, N.
+    /// |K| |x|, N: the scale of the rounding of [`System::multiply`].
     #[must_use]
     pub fn multiply_magnitudes(&self, x: &[f64]) -> Vec<f64> {
         self.multiply_with(x, f64::abs)

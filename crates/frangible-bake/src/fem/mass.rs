@@ -33,7 +33,7 @@ impl Mass {
         }
     }
 
-    /// Sum of each row, kg: what of the body's mass moves with the node. May be negative at corners.
+    /// Sum of each row, kg: the share of the body's mass that moves with the node. May be negative at corners.
     #[must_use]
     pub fn row_sums(&self) -> Vec<f64> {
         match self {

@@ -1,4 +1,4 @@
-//! Boxes, plates and rods, and what a box is bent into.
+//! Boxes, plates and rods, and shapes into which a box is bent.
 
 use frangible::glam::DVec3;
 

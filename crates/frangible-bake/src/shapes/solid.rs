@@ -30,7 +30,7 @@ pub(crate) const SHELL_ELEMENTS: f64 = 5000.0;
 /// A wall above this share of the cube root of the volume is no thin one: a ball is 1.2 of it thick, a cube 1.
 const THICK: f64 = 0.5;
 
-/// A solid and how it is to be filled with tetrahedra.
+/// A solid, with settings for filling it with tetrahedra.
 #[derive(Clone)]
 pub struct SolidShape {
     /// The solid, m.

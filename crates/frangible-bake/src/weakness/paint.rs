@@ -108,7 +108,7 @@ impl Paint {
 }
 
 /// Fields from the [vertex colours](frangible::internals::asset::RenderSurface::colors) of the asset's drawn surface: each tetrahedron takes
-/// the colour of the nearest point of it. Of several entries what a later one names replaces what an earlier one says.
+/// the colour of the nearest point of it. A factor of a later entry replaces that of an earlier one.
 ///
 /// Paint reaches halfway through a wall: a score right through it is painted on both sides.
 ///

@@ -1,4 +1,4 @@
-//! Parts of a body by where they are.
+//! Zones: parts of a body by their place.
 
 use frangible::InputError;
 use frangible::glam::Vec3;

@@ -1,8 +1,8 @@
 //! One triangle of the render surface laid over the boundary of the fracture mesh and divided as that is.
 //!
 //! The parts of the boundary over and under the triangle are projected on it along its normal, and it is divided along the borders between
-//! parts of different labels: the projected cracks. What no part covers (beside a sharp edge that the fracture mesh rounds off, inside a shell
-//! the fracture mesh does not have) takes the label of the closest part.
+//! parts of different labels: the projected cracks. A place that no part covers (beside a sharp edge that the fracture mesh rounds off, inside a
+//! shell the fracture mesh does not have) takes the label of the closest part.
 //! Polygons are in the triangle's barycentric coordinates: (weight of the second corner, weight of the third).
 
 use glam::{DVec2, DVec3};

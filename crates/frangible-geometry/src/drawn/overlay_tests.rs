@@ -1,4 +1,4 @@
-//! A triangle that the cracks alone tell whole is the one polygon that dividing it would find.
+//! A triangle through which no crack runs is the one polygon that dividing it would find.
 
 use glam::{DVec2, DVec3, Vec3};
 

@@ -7,14 +7,14 @@
 //! toughness K_Ic more often than a fracture energy; for plane strain `G_c = K_Ic² (1 − ν²) / E`. Both are in the source text.
 //!
 //! *Derived*: the stiffness damping α from the loss factor η of structural acoustics. A mode's loss factor is
-//! `α ω + β/ω`; we ask for η at 10 kHz, the middle of what small brittle bodies ring at: `α = η / (2π · 10 kHz)`.
+//! `α ω + β/ω`; we ask for η at 10 kHz, the middle of the frequencies at which small brittle bodies ring: `α = η / (2π · 10 kHz)`.
 //! Loss factors: Cremer, Heckl, Petersson, *Structure-Borne Sound*, 3rd ed. 2005 (steel 2e-4, glass 6e-4 … 2e-3,
-//! dense concrete 4e-3 … 8e-3, oak 8e-3 … 1e-2, brick 1e-2 … 2e-2, acrylic 2e-2 … 4e-2), rounded; what that table lacks is
-//! given the value of its nearest relative there. The mass damping β = 5 1/s (paper: 3 … 10) only matters below 100 Hz.
+//! dense concrete 4e-3 … 8e-3, oak 8e-3 … 1e-2, brick 1e-2 … 2e-2, acrylic 2e-2 … 4e-2), rounded; a material that the table lacks has
+//! the value of its nearest relative there. The mass damping β = 5 1/s (paper: 3 … 10) only matters below 100 Hz.
 //!
 //! *Strength under a blow*: a slow test lets flaws grow while it lasts, with the water at their tips in glass. A blow that loads in microseconds
 //! does not, and finds the material stronger. Presets state the strength under a blow where the increase was measured: glass and
-//! concrete. A load that rests is compared with what [`Preset::fatigue`] leaves of it.
+//! concrete. A resting load is compared with the strength that [`Preset::fatigue`] leaves.
 //!
 //! *Model parameters, not measurable on a sample*:
 //! - **energy depth** γ. An edge crack of length a under tension σ releases about `2π a · σ²/(2E)` per area, so γ stands for 2πa.
@@ -96,7 +96,7 @@ struct Numbers {
 }
 
 impl Preset {
-    /// Volume of the specimen of which a strength is, where nothing else is said, m³: a pane of 4 mm with 240 cm² under load.
+    /// Volume of the specimen of a strength for which no other is given, m³: a pane of 4 mm with 240 cm² under load.
     pub const SPECIMEN: f64 = 1e-4;
     /// Structural steel: balls, anvils.
     pub const STEEL: Self = table::STEEL;

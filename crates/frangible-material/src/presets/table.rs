@@ -1,4 +1,4 @@
-//! The numbers of all presets and where they come from.
+//! The numbers of all presets and their sources.
 
 use std::f64::consts::TAU;
 

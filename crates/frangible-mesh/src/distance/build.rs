@@ -171,7 +171,7 @@ impl DistanceSolid {
         }
     }
 
-    /// All together, halved again and again so that few are looked at for one point. Nothing for no parts.
+    /// Union of all, halved again and again so that few are looked at for one point. Nothing for no parts.
     pub fn union_of(mut parts: Vec<Self>) -> Option<Self> {
         if parts.len() < 2 {
             return parts.pop();
@@ -202,7 +202,7 @@ impl DistanceSolid {
         self.smooth_subtract(tool, 0.0)
     }
 
-    /// This without `tool`, the edges of the cut rounded over about `blend`.
+    /// Difference: this without `tool`, the edges of the cut rounded over about `blend`.
     pub fn smooth_subtract(self, tool: Self, blend: f64) -> Self {
         Self {
             bounds: self.bounds,

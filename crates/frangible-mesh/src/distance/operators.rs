@@ -1,4 +1,4 @@
-//! Putting signed distances together. None changes faster than its operands, so a bound stays a bound.
+//! Operators on signed distances. None changes faster than its operands, so a bound stays a bound.
 
 /// Least of two distances, rounded within `blend`, m: at most `blend`/4 below the sharp one, and the sharp one
 /// where they differ by `blend` or more. Its gradient is a mean of both operands', so never longer.

@@ -134,7 +134,7 @@ pub fn half_space(p: DVec3, normal: DVec3, offset: f64) -> f64 {
 }
 
 /// Distance in the plane to a closed polygon. `points` in either sense, m; infinite for less than three. An edge
-/// for which `seam` holds bounds nothing: it lies inside what the polygon stands for.
+/// for which `seam` holds bounds nothing: it lies inside the body of which the polygon is a part.
 pub fn polygon(p: DVec2, points: &[DVec2], seam: impl Fn(DVec2, DVec2) -> bool) -> f64 {
     let Some(&last) = points.last().filter(|_| points.len() > 2) else {
         return f64::INFINITY;

@@ -156,7 +156,7 @@ impl MeshSolid {
         })
     }
 
-    /// The first triangle through which the segment leaves the body, from its back to its front: how far along the segment,
+    /// The first triangle through which the segment leaves the body, from its back to its front: the place along the segment,
     /// 0..1, and its index in the surface; the lowest of those that share the place.
     #[must_use]
     pub fn first_exit(&self, from: DVec3, to: DVec3) -> Option<(f64, u32)> {

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::mesh_solid::MeshSolid;
 use crate::solid::Solid;
 
-/// Everything that is no farther from a surface than half the thickness of the wall. Where the surface ends, the wall ends
+/// All points no farther from a surface than half the thickness of the wall. Where the surface ends, the wall ends
 /// in a rounded rim.
 pub struct SkinWall {
     middle: MeshSolid,

@@ -22,8 +22,8 @@ pub struct Ball {
 }
 
 impl BreakableWorld {
-    /// A breakable body, its centre of mass at `pose`; `linvel` in m/s, `angvel` in rad/s. [`insert_body`](Self::insert_body) has
-    /// everything else that Rapier's builders can say.
+    /// Inserts a breakable body, its centre of mass at `pose`; `linvel` in m/s, `angvel` in rad/s. [`insert_body`](Self::insert_body) takes
+    /// everything else that Rapier's builders can set.
     ///
     /// # Errors
     /// A pose or velocity that is not finite, an asset whose mass is no positive number, a full world.
@@ -40,8 +40,8 @@ impl BreakableWorld {
         })
     }
 
-    /// A breakable body as Rapier's own builders describe it: `rigid` says where its centre of mass is, how it moves, its user data; `finish`
-    /// gets the builder of its collider and may add groups, hooks, events. Fragments inherit all of that.
+    /// Inserts a breakable body as Rapier's own builders describe it: `rigid` has the pose and velocity of its centre of mass and its user data;
+    /// `finish` gets the builder of its collider and may add groups, hooks, events. Fragments inherit all of that.
     ///
     /// The collider is a box where the body is one, else the compound of the asset's convex cells, with the friction and restitution of its material; mass and inertia are
     /// the asset's. A body whose asset [is supported](frangible::Asset::is_supported) becomes a fixed one: it does not move, whatever its
@@ -85,7 +85,7 @@ impl BreakableWorld {
         Ok(handle)
     }
 
-    /// A solid ball, swept so that it never passes through anything however fast; `linvel` in m/s.
+    /// Inserts a solid ball, swept so that it never passes through anything however fast; `linvel` in m/s.
     /// The surface's radius of curvature becomes the ball's.
     ///
     /// # Errors
@@ -116,7 +116,7 @@ impl BreakableWorld {
         Ok(self.insert(builder, SharedShape::ball(ball.radius), surface))
     }
 
-    /// A box that never moves; half extents in m.
+    /// Inserts a box that never moves; half extents in m.
     ///
     /// # Errors
     /// A half extent not above zero, a pose that is not finite, a full world.
@@ -136,7 +136,7 @@ impl BreakableWorld {
         Ok(self.insert(RigidBodyBuilder::fixed().pose(pose), shape, surface))
     }
 
-    /// A floor without end: everything behind the plane through `point` (m) with outward `normal`.
+    /// Inserts a floor without end: everything behind the plane through `point` (m) with outward `normal`.
     ///
     /// # Errors
     /// A point or normal that is not finite, a normal of no length, a full world.
@@ -155,7 +155,7 @@ impl BreakableWorld {
         Ok(self.insert(RigidBodyBuilder::fixed().translation(point), shape, surface))
     }
 
-    /// Gives all colliders of any body of [`BreakableWorld::physics`] this surface.
+    /// Sets the surface of all colliders of any body of [`BreakableWorld::physics`].
     ///
     /// # Errors
     /// A number that cannot be used, or no such body.

@@ -1,4 +1,4 @@
-//! Ways into the world: breakable bodies, balls, floors, walls of bricks; their colliders and masses.
+//! Bodies that are inserted into the world: breakable bodies, balls, floors, walls of bricks; their colliders and masses.
 
 pub(crate) mod collider;
 pub(crate) mod dispatch;

@@ -1,4 +1,4 @@
-//! Mortar: a weak bond between two bodies, which gives way to what pulls, shears or bends it.
+//! Mortar: a weak bond between two bodies, which gives way to pull, shear or bending.
 //!
 //! A fixed impulse joint over the face where they meet. Bodies that are bonded do not collide with each other; when the bond is
 //! gone they do.

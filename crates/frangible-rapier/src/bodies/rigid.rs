@@ -10,8 +10,8 @@ use crate::error::{WorldError, finite, positive};
 use crate::world::BreakableWorld;
 
 impl BreakableWorld {
-    /// A solid of uniform density, its frame at `pose`, swept so that it does not pass through anything however fast;
-    /// `mass` in kg, `linvel` in m/s. The surface's radius of curvature is that of the place it strikes with.
+    /// Inserts a solid of uniform density, its frame at `pose`, swept so that it does not pass through anything however fast;
+    /// `mass` in kg, `linvel` in m/s. The surface's radius of curvature is that of the place with which it strikes.
     ///
     /// # Errors
     /// A mass not above zero, a shape without volume, a pose or velocity that is not finite, a full world.

@@ -1,9 +1,9 @@
-//! Rapier's contacts → what the fracture wants to know of an impact.
+//! Conversion of Rapier's contacts to those of an impact.
 //!
 //! Theory §2: point and direction in the body frame, the impulse on this body, the approach speed from the
 //! velocities **before** the step (Rapier keeps only those after it), and the striker's modulus, effective
-//! mass, curvature, restitution, and, when it is breakable too, how it vibrates under the contact. The contacts of a partner that touches at several
-//! points say that they share its mass, so that the energy of approach is counted once. Of a blow that is integrated the impulse is an
+//! mass, curvature, restitution, and, when it is breakable too, its vibration under the contact. The contacts of a partner that touches at several
+//! points say that they share its mass, so that the energy of approach is counted once. If a blow is integrated, the impulse is an
 //! outcome; the engine's then says only which share of it is friction.
 
 use std::collections::BTreeMap;

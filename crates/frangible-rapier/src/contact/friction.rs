@@ -2,11 +2,12 @@
 //!
 //! With [`FrictionModel::Coulomb`] Rapier keeps the tangential impulse of each point over the whole step, along a basis
 //! that follows from the normal: it is read. Its default, `Simplified`, has one friction per up to four points and keeps
-//! only what the last substep gave, the same vector at each of them. For what rests, every substep is alike, so the whole
+//! only that of the last substep, the same vector at each of them. In a resting contact every substep is alike, so the whole
 //! is that × substeps, shared by normal impulse. A blow is over before the last substep, so its friction is found otherwise:
-//! it acts against the slide before the step (Coulomb); how large it is, a body with a single partner shows by the momentum
-//! that its normal impulses and gravity do not explain. With more partners at once it is μ × the normal impulse. In no case is it
-//! more than what ends the slide: of what falls straight down the direction of the slide is rounding. (Rapier applies restitution after friction, so that the first is a little less than the second.)
+//! it acts against the slide before the step (Coulomb); a body with a single partner shows its size by the momentum
+//! that its normal impulses and gravity do not explain. With more partners at once it is μ × the normal impulse. It is never more than ends the
+//! slide: if a body falls straight down, the direction of the slide is rounding. (Rapier applies restitution after friction, so that the first
+//! is a little less than the second.)
 
 use frangible::Contact;
 use rapier3d::dynamics::{FrictionModel, IntegrationParameters, RigidBody};

@@ -13,7 +13,7 @@ use crate::stepping::approach::{is_fast, moves, swept_bounds};
 use crate::world::{BreakableWorld, key};
 
 impl BreakableWorld {
-    /// Makes a merged piece a body of its own again, with those that lie on it; whether it was merged. A piece that is removed from
+    /// Makes a merged piece a body of its own again, with those that lie on it. Returns true if it was merged. A piece that is removed from
     /// [`BreakableWorld::physics`], or is no longer fixed there, comes loose in the same way at the next step.
     pub fn loosen(&mut self, piece: RigidBodyHandle) -> bool {
         let merged = self.state.rubble.contains(piece);

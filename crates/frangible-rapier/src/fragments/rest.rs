@@ -1,4 +1,4 @@
-//! Pieces that rest, pieces that go, and how long steps take with them.
+//! Pieces that rest, pieces that are removed, and the time that steps take with them.
 
 use std::collections::BTreeSet;
 

@@ -1,4 +1,4 @@
-//! Loads other than blows: what bodies carry, blasts, scripts.
+//! Loads other than blows: resting loads, blasts, scripted blows.
 
 pub(crate) mod pushes;
 pub(crate) mod resting;

@@ -9,7 +9,7 @@ use crate::stepping::judge::breakable;
 use crate::world::BreakableWorld;
 
 impl BreakableWorld {
-    /// A breakable body of the world as what strikes another one, for [`Self::would_break`]: it touches at `point`, m, and flies `toward` a
+    /// A breakable body of the world as a striker of another one, for [`Self::would_break`]: it touches at `point`, m, and flies `toward` a
     /// direction of any length, both in world coordinates. It strikes with its mass and vibrates under the blow.
     ///
     /// # Errors

@@ -2,8 +2,8 @@
 //!
 //! A step has three parts. Before it, pieces that are ready join the bodies that can break, merged ones that may be hit
 //! come loose (`loosen.rs`), and blasts and scripted blows act (`pushes.rs`). Then Rapier takes its step, and bodies break inside it or
-//! after it, as [`Breaking`] says. After it, what rolls is slowed, what rests is kept at its place, and debris beyond its limit is removed;
-//! what bodies carry is looked at then (`resting.rs`).
+//! after it, as [`Breaking`] says. After it, rolling bodies are slowed, resting ones kept in their place, and debris beyond its limit is removed;
+//! the loads of bodies are looked at then (`resting.rs`).
 
 use rapier3d::pipeline::{EventHandler, PhysicsHooks};
 

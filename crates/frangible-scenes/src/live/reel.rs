@@ -1,4 +1,4 @@
-//! The last seconds of a scene that runs, kept as poses: what a recording of it is made of. Keeping them costs a few microseconds sixty
+//! The last seconds of a scene that runs, kept as poses, from which a recording of it is made. Keeping them costs a few microseconds sixty
 //! times a second.
 
 use std::collections::{BTreeMap, VecDeque};

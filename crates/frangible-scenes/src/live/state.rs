@@ -46,7 +46,7 @@ impl LiveScene {
         }
     }
 
-    /// Goes back to a state of this scene; what happens then is what happened, bit for bit.
+    /// Goes back to a state of this scene; from there on the same happens again, bit for bit.
     pub fn restore(&mut self, saved: &SavedScene) {
         self.world.restore(&saved.world);
         self.things.clone_from(&saved.things);

@@ -1,4 +1,4 @@
-//! Swinging a hammer into a scene that runs: its head is led on an arc to where it strikes, flies freely from the first touch
+//! Swinging a hammer into a scene that runs: its head is led on an arc to the point that it strikes, flies freely from the first touch
 //! on, as long as a blow takes, and is lifted away.
 
 use std::sync::Arc;

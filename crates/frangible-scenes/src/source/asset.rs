@@ -10,7 +10,7 @@ use crate::error::SceneError;
 /// Writes a baked body; the file is whole or absent.
 ///
 /// # Errors
-/// What the system said.
+/// The reason that the system gave.
 pub fn save_asset(asset: &Asset, path: &Path) -> Result<(), SceneError> {
     Ok(asset.save(path)?)
 }
@@ -18,7 +18,7 @@ pub fn save_asset(asset: &Asset, path: &Path) -> Result<(), SceneError> {
 /// Writes a baked body with mode shapes in half precision, see [`compacted`]; the file is whole or absent.
 ///
 /// # Errors
-/// What the system said.
+/// The reason that the system gave.
 pub fn save_compact_asset(asset: &Asset, path: &Path) -> Result<(), SceneError> {
     Ok(asset.save_with(path, &SaveOptions::compact())?)
 }

@@ -1,4 +1,4 @@
-//! A file's unit and axes → metres, y up.
+//! Conversion of a file's unit and axes to metres, y up.
 
 use std::path::Path;
 

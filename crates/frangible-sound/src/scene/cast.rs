@@ -1,4 +1,4 @@
-//! Whose sound is made: the things of a scene, by numbers that the caller gives them.
+//! The things of a scene that sound, by numbers that the caller gives them.
 
 use frangible::{Body, Material};
 use frangible_recording::Pose;

@@ -1,8 +1,8 @@
 //! The sound of a scene: its things, and the blows and touches that happen to them, on their way into a synthesiser.
 //!
-//! Whoever runs a scene, or a game its world, numbers the things in it ([`Cast`]) and says what happened as plain data: blows with the forces
-//! that the fracture found ([`recorded_blow`]), what came together and what slides ([`Touching`] finds it in an engine's contacts). A
-//! [`Hearing`] makes bodies of a [`Synth`] of the things, and strikes of what happened.
+//! The program that runs a scene or a game numbers the things in it ([`Cast`]) and reports events as plain data: blows with the forces
+//! that the fracture found ([`recorded_blow`]), touches and slides ([`Touching`] finds them in an engine's contacts). A
+//! [`Hearing`] makes bodies of a [`Synth`] of the things, and strikes of the events.
 
 mod blows;
 mod cast;
@@ -40,7 +40,7 @@ pub struct Hearing {
 }
 
 impl Hearing {
-    /// Ears in a scene, and what its floor is made of.
+    /// A synthesiser for a scene with a floor of this material.
     ///
     /// # Errors
     /// A number of the configuration that cannot be used.
@@ -59,7 +59,7 @@ impl Hearing {
         &self.synth
     }
 
-    /// The synthesiser, to move who listens.
+    /// The synthesiser, to move the listener.
     pub fn synth_mut(&mut self) -> &mut Synth {
         &mut self.synth
     }
@@ -92,7 +92,7 @@ impl Hearing {
             .map_or(Ok(()), |id| self.synth.hush(time, id))
     }
 
-    /// Forgets a thing at once; what rings of it is cut off.
+    /// Forgets a thing at once; its ringing is cut off.
     pub fn forget(&mut self, node: usize) {
         if let Some(id) = self.nodes.forget(node) {
             // The synthesiser has it, as the list had.
@@ -100,7 +100,7 @@ impl Hearing {
         }
     }
 
-    /// Takes note of a blow: what touches the same thing at its time is part of it. Before the touches of its time are told.
+    /// Takes note of a blow: touches of the same thing at its time are part of it. Call it before the touches of that time.
     pub fn note(&mut self, blow: &RecordedBlow) {
         self.blows.push((blow.node, blow.time));
     }

@@ -86,8 +86,8 @@ type Touched = ([Vec3; 2], f64);
 impl Touching {
     /// Finds the touches, slides and rolling of a step, from all pushes in it and the motion of the bodies after it.
     ///
-    /// A touch is where a pair of colliders pushes more than twice as hard as in the step before, and changes the speed of the lighter body by
-    /// more than 2 cm/s beyond what its weight does. When within its step it came is not known. All touches of a step at its end would be heard as
+    /// A pair of colliders touches if it pushes more than twice as hard as in the step before, and changes the speed of the lighter body by
+    /// more than 2 cm/s beyond its weight. The moment within the step is not known. All touches of a step at its end would be heard as
     /// one loud clap, and steps as a tone of their own, so that each is put at a moment of the step that is drawn for it.
     pub fn step(
         &mut self,

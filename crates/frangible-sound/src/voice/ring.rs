@@ -1,4 +1,4 @@
-//! A block of a voice: its resonators, by themselves or under what strikes the body.
+//! A block of a voice: its resonators, by themselves or under strikes on the body.
 
 use crate::bank::{BLOCK, LANES, Sums, ring_block, total};
 use crate::complex::Complex;

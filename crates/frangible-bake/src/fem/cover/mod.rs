@@ -72,12 +72,12 @@ impl Cover {
         Self::of(body, &face_pairs(body), elements_wanted, false)
     }
 
-    /// Covers a body whose tetrahedra hang together as `faces` says, pairs of them: of two on both sides of a crack
-    /// nothing passes from one to the other. While somebody waits: the number of elements within a fifth, and on the calling
+    /// Covers a body whose tetrahedra hang together at `faces`, pairs of them: two elements on both sides of a crack
+    /// are not joined. Made quickly, since others wait: the number of elements is met within a fifth, on the calling
     /// thread alone, since pieces are covered side by side.
     ///
     /// # Errors
-    /// What [`Cover::new`] refuses.
+    /// As [`Cover::new`].
     pub fn of_joined(
         body: &BodyMesh,
         faces: &[[u32; 2]],

@@ -1,4 +1,4 @@
-//! Contacts beside what brute force finds.
+//! Contacts, compared with brute force.
 
 use rapier3d::geometry::SharedShape;
 use rapier3d::math::Rotation;
