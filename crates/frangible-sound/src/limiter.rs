@@ -7,7 +7,7 @@ use crate::error::{SoundError, checked_full_scale};
 pub struct LimiterReport {
     /// Loudest pressure so far, Pa.
     pub peak: f64,
-    /// Number of samples that were reduced.
+    /// Number of samples whose level was reduced.
     pub limited: u64,
     /// Reduction of the loudest of them, dB; 0 if none.
     pub reduction: f64,

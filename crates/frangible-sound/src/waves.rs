@@ -11,7 +11,7 @@ pub const MOST_DEGREE: usize = 6;
 /// Number of real spherical harmonics up to [`MOST_DEGREE`].
 pub const HARMONICS: usize = (MOST_DEGREE + 1) * (MOST_DEGREE + 1);
 
-/// Place in a list of harmonics of that of a degree l and an order m, −l to l.
+/// Index of the harmonic of degree l and order m, −l to l, in a list of them.
 #[must_use]
 pub const fn harmonic(l: usize, m: isize) -> usize {
     ((l * l + l) as isize + m) as usize

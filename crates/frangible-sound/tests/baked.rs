@@ -25,7 +25,7 @@ fn baked(shape: Shape, material: Material) -> (AssetSound, Body) {
     AssetSound::new(&kind.body(1), &damping, Hold::Free).expect("a sound")
 }
 
-/// Pressure of a blow at 1 m, Pa.
+/// Sound pressure of a blow at 1 m, Pa.
 fn heard(body: &Body, push: Vec<f32>) -> Vec<f64> {
     let listener = Listener {
         channels: 1,

@@ -4,7 +4,7 @@ use crate::BakeError;
 use frangible::InputError;
 use thiserror::Error;
 
-/// Error of finding the modes of a piece: it does not break again then.
+/// Error of finding the modes of a piece, which then does not break again.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum PieceError {

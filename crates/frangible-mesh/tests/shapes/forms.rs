@@ -6,7 +6,7 @@ use frangible_mesh::glam::{DVec3, UVec3};
 use frangible_mesh::{DistanceSolid, READY_SHAPES, Solid, ready_shape};
 use rayon::prelude::*;
 
-/// Published figures of a shape: volume (cm³) within 5 %, holes through it, thinnest part (mm), box (mm) within 1.
+/// Figures stated for a shape: volume (cm³) within 5 %, holes through it, thinnest part (mm), box (mm) within 1.
 struct Form {
     name: &'static str,
     volume: f64,

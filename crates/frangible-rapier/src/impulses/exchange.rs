@@ -348,7 +348,7 @@ impl Pair {
         touch.normal.dot(speed(0) - speed(1))
     }
 
-    /// Increase of that speed by the kicks, m/s.
+    /// Increase of a contact's opening speed by the kicks, m/s.
     fn gain(&self, touch: &Touch, kicks: [Kick; 2]) -> f64 {
         let speed = |k: usize| {
             let (linear, angular) = self.wholes[k].answer(kicks[k]);

@@ -18,7 +18,7 @@ impl Voice {
         (0.5 + 0.5 * (std::f64::consts::PI * past.clamp(0.0, 1.0)).cos()) as f32
     }
 
-    /// Computes a block of the sound at the middle of the head that leaves straight to it, and of that which leaves towards the floor.
+    /// Computes a block of the sound at the middle of the head: the part that leaves straight to it, and the part that leaves towards the floor.
     pub(crate) fn ring(&mut self, arch: pulp::Arch, rate: f64, now: f64) -> [[f32; BLOCK]; 2] {
         let mut sums: Sums = [[0.0; LANES]; BLOCK];
         if self.hits.is_empty() {

@@ -32,7 +32,7 @@ pub(super) struct Asked {
 struct Questions {
     /// Blows to be put to the fracture.
     blows: Vec<(RigidBodyHandle, Impact)>,
-    /// Answers to overloads.
+    /// Answers about overloaded bodies.
     loads: Vec<Answer>,
     /// Bodies whose blow is known to hold.
     known: Vec<RigidBodyHandle>,
