@@ -1,11 +1,10 @@
-//! A blow: what its integration found, what is told of it, and how cracks change it.
+//! A blow, and how cracks change it.
 
-use std::f64::consts::PI;
 use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::apart::{Apart, GroupMotion};
+use super::apart::Apart;
 use super::flight::Setup;
 use super::groups::Groups;
 use super::integrate::{MOST_SUBSTEPS, Progress, Run, Softening};
@@ -15,7 +14,7 @@ use super::record::Record;
 use super::star::Star;
 use crate::body::Body;
 use crate::config::{CrackTiming, FractureConfig};
-use crate::contact::{self, Contact, ContactReport, Pulse};
+use crate::contact::{self, Contact};
 use crate::crack::{CrackSystem, StressField};
 use crate::error::InputError;
 use crate::motion::{DisplacementBatch, Motion, Residual};
@@ -34,14 +33,14 @@ const BATCHES: usize = 2;
 /// A blow, integrated: the forces of its contacts and the motion of the body.
 #[derive(Clone, Debug)]
 pub struct Blow {
-    plan: Plan,
+    pub(super) plan: Plan,
     instant: bool,
     /// Substeps after which the contacts are over at the latest.
     longest: usize,
     /// The shapes that follow each contact's force.
     shapes: Vec<Option<Arc<Shape>>>,
-    record: Record,
-    progress: Progress,
+    pub(super) record: Record,
+    pub(super) progress: Progress,
     /// An earlier state, from which on the motion is found anew when cracks change it.
     saved: Option<Box<Progress>>,
     /// The node of the fracture mesh under each contact.
@@ -135,88 +134,14 @@ impl Blow {
         self.plan.sites.iter().map(|s| s.touch.triangle).collect()
     }
 
-    /// What the contacts push each mode with, as given impulses would, N·s/√kg.
-    pub(crate) fn modal_impulse(&self) -> Vec<f64> {
-        let mut sums = vec![0.0; self.plan.modes];
-        for (k, drive) in self.plan.drive.iter().enumerate() {
-            let forces = self.record.forces_of(&self.plan, k);
-            let impulse = forces.sum::<f64>() * self.substep();
-            for (sum, xi) in sums.iter_mut().zip(drive) {
-                *sum += impulse * xi;
-            }
-        }
-        sums
-    }
-
-    /// Its time steps, and a half-sine of its length.
-    pub(crate) fn pulse(&self) -> Pulse {
-        let duration = self.duration().max(self.substep());
-        Pulse {
-            duration,
-            amplitude: 0.5 * PI / duration,
-            time_step: self.plan.time_step,
-            contact_steps: self.contact_steps(),
-            total_steps: self.motion.steps(),
-            longest_step: self.plan.time_step,
-        }
-    }
-
-    /// How long the contacts push, s.
-    pub(crate) fn duration(&self) -> f64 {
-        let count = self.plan.sites.len();
-        let last = self.record.forces.iter().rposition(|&f| f > 0.0);
-        last.map_or(0.0, |i| (i / count + 1) as f64 * self.substep())
-    }
-
-    /// What the contacts were expected to last, the shortest, s: Hertz' time, or what a script says.
-    pub(crate) fn expected_duration(&self) -> f64 {
-        let times = self.plan.sites.iter().map(|s| s.duration);
-        times.fold(f64::INFINITY, f64::min)
-    }
-
     /// Time steps until the contacts have parted, as far as they have been followed.
-    fn contact_steps(&self) -> usize {
+    pub(super) fn contact_steps(&self) -> usize {
         let after = self.progress.after;
         after.map_or(self.progress.step, |after| after.contact_steps)
     }
 
-    fn substep(&self) -> f64 {
+    pub(super) fn substep(&self) -> f64 {
         self.plan.time_step / self.plan.substeps as f64
-    }
-
-    /// What became of each contact.
-    #[must_use]
-    pub fn reports(&self) -> Vec<ContactReport> {
-        let speeds = self.progress.contacts.speeds.iter().enumerate();
-        let of = |(k, &speed): (usize, &f64)| self.record.report(&self.plan, k, -speed);
-        speeds.map(of).collect()
-    }
-
-    /// Energy of all modes and wall oscillators when the contact parts, and what the motion of approach has lost, J: of one contact
-    /// without damping or friction, the same but for the error of the substeps, [what its striker takes](Self::strikers_energy)
-    /// and [what crushing takes](ContactReport::crushing_energy).
-    #[must_use]
-    pub fn energies(&self) -> [f64; 2] {
-        let mass = 1.0 / self.plan.inverse_mass[0];
-        let before = f64::from(self.plan.sites[0].touch.contact.approach_speed);
-        let after = self.progress.contacts.speeds[0];
-        [
-            self.progress.at_parting.map_or(0.0, |[of_body, _]| of_body),
-            0.5 * mass * (before * before - after * after),
-        ]
-    }
-
-    /// Energy of the modes and wall oscillators of breakable strikers when the contact parts, J.
-    #[must_use]
-    pub fn strikers_energy(&self) -> f64 {
-        (self.progress.at_parting).map_or(0.0, |[_, of_strikers]| of_strikers)
-    }
-
-    /// Energy of the body's vibration and of the pieces that move on their own, and the strain energy in it, at the end of each time step, J.
-    #[doc(hidden)]
-    #[must_use]
-    pub fn energies_over_time(&self) -> &[[f64; 2]] {
-        &self.record.energies
     }
 
     /// The motion of the body over time.
@@ -237,15 +162,9 @@ impl Blow {
     /// Motion of each group against the rigid motion of the body; none where nothing has parted.
     pub(crate) fn apart(&self, body: &Body) -> Option<Apart> {
         let parted = self.parted.last()?;
-        let motions = parted.centres.iter().zip(self.drifts());
-        let motion = |(&centre, [velocity, angular]): (&DVec3, [DVec3; 2])| GroupMotion {
-            centre,
-            velocity,
-            angular,
-        };
         Some(Apart {
             of_node: parted.groups.of_node.clone(),
-            motions: motions.map(motion).collect(),
+            motions: parted.motions(&self.drifts()),
             held: body.asset.is_supported(),
         })
     }
@@ -310,24 +229,18 @@ impl Blow {
         Groups::next(before, &body.asset, index, pieces, &self.nodes(body, step))
     }
 
-    /// The node under each contact at a time step: where one has gone on to another group, the nearest of that.
+    /// Node under each contact at a time step.
     fn nodes(&self, body: &Body, step: usize) -> Vec<u32> {
         let mut nodes = self.nodes.clone();
-        let Some(parted) = self.parted.last() else {
-            return nodes;
-        };
-        let gone_on = self.progress.flight.gone_on.iter().zip(&parted.beside);
-        for (k, (gone_on, beside)) in gone_on.enumerate() {
-            if let (Some(substep), Some(group)) = (*gone_on, *beside)
-                && substep < step * self.plan.substeps
-            {
-                let point = self.plan.sites[k].touch.contact.point + body.origin().as_vec3();
-                let positions = &body.asset.fracture.positions;
-                let own = (0..positions.len()).filter(|&v| parted.groups.of_node[v] == group);
-                let away = |v: usize| positions[v].distance_squared(point);
-                let nearest = own.min_by(|&a, &b| away(a).total_cmp(&away(b)));
-                nodes[k] = nearest.map_or(nodes[k], |node| node as u32);
-            }
+        if let Some(parted) = self.parted.last() {
+            let until = step * self.plan.substeps;
+            parted.go_on(
+                body,
+                &self.plan,
+                &self.progress.flight.gone_on,
+                until,
+                &mut nodes,
+            );
         }
         nodes
     }

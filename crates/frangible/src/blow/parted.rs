@@ -19,10 +19,12 @@
 
 use glam::{DMat3, DVec3};
 
+use super::apart::GroupMotion;
 use super::faces::{Corner, corners};
 use super::groups::Groups;
+use super::moments::{Known, Moments, rigid_parts, rigid_push};
 use super::plan::Plan;
-use super::solve::{add_products, factor, is_positive};
+use super::solve::{add_products, factor, is_positive, mirror, upper};
 use crate::body::Body;
 
 /// Shares of a piece's mass that are added to what the modes do not hold of it, the first that leaves no motion without mass: masses are sums
@@ -220,6 +222,39 @@ impl Parted {
         groups.map(velocity).collect()
     }
 
+    /// Motion of each group but the reference, with these velocities and angular velocities, m/s and rad/s.
+    pub(super) fn motions(&self, drifts: &[[DVec3; 2]]) -> Vec<GroupMotion> {
+        let motion = |(&centre, &[velocity, angular]): (&DVec3, &[DVec3; 2])| GroupMotion {
+            centre,
+            velocity,
+            angular,
+        };
+        self.centres.iter().zip(drifts).map(motion).collect()
+    }
+
+    /// Moves the nodes under the contacts that have gone on before a substep to the nearest nodes of the groups that they have gone on to.
+    pub(super) fn go_on(
+        &self,
+        body: &Body,
+        plan: &Plan,
+        gone_on: &[Option<usize>],
+        until: usize,
+        nodes: &mut [u32],
+    ) {
+        let positions = &body.asset.fracture.positions;
+        for (k, node) in nodes.iter_mut().enumerate() {
+            let Some(group) = self.beside[k].filter(|_| gone_on[k].is_some_and(|s| s < until))
+            else {
+                continue;
+            };
+            let point = plan.sites[k].touch.contact.point + body.origin().as_vec3();
+            let own = (0..positions.len()).filter(|&v| self.groups.of_node[v] == group);
+            let away = |v: usize| positions[v].distance_squared(point);
+            let nearest = own.min_by(|&a, &b| away(a).total_cmp(&away(b)));
+            *node = nearest.map_or(*node, |node| node as u32);
+        }
+    }
+
     /// The unknowns, or their rates, of these groups where those of the groups before are known: children start with their parent's motion.
     pub(super) fn inherit(&self, before: Option<&Self>, unknowns: &[f64]) -> Vec<f64> {
         let mut own = vec![0.0; self.unknowns()];
@@ -242,60 +277,6 @@ impl Parted {
     }
 }
 
-/// What a force pushes the mass-normalised rigid motions of a free body with; nothing of a held one.
-fn rigid_push(body: &Body, direction: DVec3, at: DVec3) -> [f64; SIX] {
-    let mass = &body.asset.mass;
-    if body.asset.is_supported() {
-        return [0.0; SIX];
-    }
-    normalised(
-        mass.mass,
-        mass.inertia,
-        direction,
-        (at - body.origin()).cross(direction),
-    )
-}
-
-/// Momentum and angular momentum in the mass-normalised rigid motions of a body: squares add up to pᵀp/m + LᵀI⁻¹L.
-fn normalised(mass: f64, inertia: DMat3, linear: DVec3, angular: DVec3) -> [f64; SIX] {
-    // Rows of the inverse of Cholesky's factor of the inertia.
-    let [a, b, c] = inertia.to_cols_array_2d();
-    let l00 = a[0].sqrt();
-    let (l10, l20) = (a[1] / l00, a[2] / l00);
-    let l11 = (b[1] - l10 * l10).sqrt();
-    let l21 = (b[2] - l20 * l10) / l11;
-    let l22 = (c[2] - l20 * l20 - l21 * l21).sqrt();
-    let x = angular.x / l00;
-    let y = (angular.y - l10 * x) / l11;
-    let z = (angular.z - l20 * x - l21 * y) / l22;
-    let p = linear / mass.sqrt();
-    [p.x, p.y, p.z, x, y, z]
-}
-
-/// P0: what the body's rigid motions hold of each unknown.
-fn rigid_parts(body: &Body, moments: &[Moments]) -> Vec<[f64; SIX]> {
-    if body.asset.is_supported() {
-        return vec![[0.0; SIX]; SIX * moments.len()];
-    }
-    let whole = &body.asset.mass;
-    let parts = moments.iter().flat_map(|m| {
-        [DVec3::X, DVec3::Y, DVec3::Z, DVec3::X, DVec3::Y, DVec3::Z]
-            .into_iter()
-            .enumerate()
-            .map(move |(k, axis)| {
-                let (linear, angular) = match k < 3 {
-                    true => (
-                        m.mass * axis,
-                        m.mass * (m.centre - body.origin()).cross(axis),
-                    ),
-                    false => (DVec3::ZERO, m.inertia * axis),
-                };
-                normalised(whole.mass, whole.inertia, linear, angular)
-            })
-    });
-    parts.collect()
-}
-
 /// Adds some of the pieces' own mass until no motion is without any.
 fn add_until_positive(mass: &mut [f64], own: &[f64], n: usize) {
     let mut added = 0.0;
@@ -308,148 +289,6 @@ fn add_until_positive(mass: &mut [f64], own: &[f64], n: usize) {
             return;
         }
     }
-}
-
-/// What was found of a group before.
-struct Known<'a> {
-    mass: (f64, DMat3),
-    centre: DVec3,
-    held: &'a [f64],
-}
-
-/// Masses of a group.
-struct Moments {
-    mass: f64,
-    centre: DVec3,
-    inertia: DMat3,
-    /// Its tetrahedra, and the mass of each that is the group's own.
-    parts: Vec<(u32, f64)>,
-}
-
-impl Moments {
-    /// The masses of all groups but the reference: each tetrahedron's is shared out among its nodes, and acts at its centroid. Also the
-    /// tetrahedra that have nodes of several groups.
-    fn of(body: &Body, groups: &Groups, known: &[Option<Known<'_>>]) -> (Vec<Self>, Vec<u32>) {
-        let asset = &*body.asset;
-        let (mesh, centroids) = (&asset.fracture, &body.prepared.centroids);
-        let density = f64::from(asset.material.density as f32);
-        let mut parts: Vec<Vec<(u32, f64)>> = vec![Vec::new(); groups.parents.len()];
-        let mut mixed = Vec::new();
-        let known = |group: u32| known.get(group as usize).and_then(Option::as_ref);
-        let settled: Vec<bool> = (0..groups.parents.len() as u32)
-            .map(|group| group == 0 || known(group).is_some())
-            .collect();
-        for tet in asset.tets() {
-            let of_nodes = mesh.tets[tet].map(|v| groups.of_node[v as usize]);
-            if of_nodes != [of_nodes[0]; 4] {
-                mixed.push(tet as u32);
-            } else if settled[of_nodes[0] as usize] {
-                continue;
-            }
-            let quarter = 0.25 * density * mesh.volume(tet);
-            for (i, &group) in of_nodes.iter().enumerate() {
-                if !settled[group as usize] && !of_nodes[..i].contains(&group) {
-                    let own = of_nodes.iter().filter(|&&g| g == group).count();
-                    parts[group as usize].push((tet as u32, quarter * own as f64));
-                }
-            }
-        }
-        let edge = f64::from(body.prepared.edge);
-        let of = |(group, parts): (u32, Vec<(u32, f64)>)| {
-            if let Some(known) = known(group) {
-                return Self {
-                    mass: known.mass.0,
-                    centre: known.centre,
-                    inertia: known.mass.1,
-                    parts,
-                };
-            }
-            let at = |tet: u32| centroids[tet as usize].as_dvec3();
-            let mass: f64 = parts.iter().map(|p| p.1).sum();
-            let centre = parts.iter().map(|&(tet, m)| m * at(tet)).sum::<DVec3>() / mass;
-            // A tetrahedron is no point.
-            let mut inertia = DMat3::from_diagonal(DVec3::splat(0.05 * edge * edge * mass));
-            for &(tet, m) in &parts {
-                let d = at(tet) - centre;
-                inertia += m * (DMat3::from_diagonal(DVec3::splat(d.length_squared())) - outer(d));
-            }
-            Self {
-                mass,
-                centre,
-                inertia,
-                parts,
-            }
-        };
-        ((0..).zip(parts).skip(1).map(of).collect(), mixed)
-    }
-
-    /// Adds its mass and inertia to the matrix of all groups.
-    fn add_mass(&self, matrix: &mut [f64], group: usize, n: usize) {
-        let first = SIX * group;
-        for k in 0..3 {
-            matrix[(first + k) * n + first + k] += self.mass;
-            for l in 0..3 {
-                matrix[(first + 3 + k) * n + first + 3 + l] += self.inertia.col(l)[k];
-            }
-        }
-    }
-
-    /// p of its six motions: six rows of modes. `of_node`: nothing yet, and again when done, for each node of the analysis mesh.
-    fn held(&self, body: &Body, modes: usize, of_node: &mut [(f64, DVec3)]) -> Vec<f64> {
-        let asset = &*body.asset;
-        let mut touched = Vec::new();
-        for &(tet, mass) in &self.parts {
-            let way = body.prepared.centroids[tet as usize].as_dvec3() - self.centre;
-            let point = asset.embedded_tet(tet as usize);
-            let nodes = &asset.analysis.elements[point.element as usize];
-            for (&node, value) in nodes.iter().zip(point.shape_values()) {
-                let m = mass * f64::from(value);
-                let (sum, moment) = &mut of_node[node as usize];
-                if *sum == 0.0 {
-                    touched.push(node);
-                }
-                *sum += m;
-                *moment += m * way;
-            }
-        }
-        let mut held = vec![0.0; SIX * modes];
-        let [x, y, z, rx, ry, rz] = rows_of(&mut held, modes);
-        touched.sort_unstable();
-        for node in touched {
-            let (m, s) = std::mem::take(&mut of_node[node as usize]);
-            let [a, b, c] = asset.modes.rows(node as usize).map(|row| &row[..modes]);
-            for i in 0..modes {
-                let (a, b, c) = (f64::from(a[i]), f64::from(b[i]), f64::from(c[i]));
-                x[i] += m * a;
-                y[i] += m * b;
-                z[i] += m * c;
-                rx[i] += s.y * c - s.z * b;
-                ry[i] += s.z * a - s.x * c;
-                rz[i] += s.x * b - s.y * a;
-            }
-        }
-        held
-    }
-}
-
-/// End of the part of a symmetric matrix's row that is found: the rest [mirrors](mirror) it.
-pub(super) fn upper(row: usize) -> usize {
-    SIX * (row / SIX + 1)
-}
-
-/// Copies the lower half of a matrix onto the upper one.
-pub(super) fn mirror(matrix: &mut [f64], n: usize) {
-    for j in 0..n {
-        for k in 0..j {
-            matrix[k * n + j] = matrix[j * n + k];
-        }
-    }
-}
-
-/// Six rows of a list.
-fn rows_of(list: &mut [f64], width: usize) -> [&mut [f64]; SIX] {
-    let mut rows = list.chunks_exact_mut(width.max(1));
-    std::array::from_fn(|_| rows.next().unwrap_or_default())
 }
 
 /// A unit force in this direction at this arm from a piece's centre, on its six motions.

@@ -123,6 +123,20 @@ pub(super) fn solve(factor: &[f64], x: &mut [f64]) {
     }
 }
 
+/// End of the part of a symmetric matrix's row that is found: the rest [mirrors](mirror) it.
+pub(super) fn upper(row: usize) -> usize {
+    ROWS * (row / ROWS + 1)
+}
+
+/// Copies the lower half of a matrix onto the upper one.
+pub(super) fn mirror(matrix: &mut [f64], n: usize) {
+    for j in 0..n {
+        for k in 0..j {
+            matrix[k * n + j] = matrix[j * n + k];
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

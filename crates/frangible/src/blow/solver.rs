@@ -1,9 +1,9 @@
 //! What solves a tick of the pieces that move on their own: see `flight.rs` for the equation.
 
 use super::bank::Bank;
-use super::parted::{Parted, mirror, upper};
+use super::parted::Parted;
 use super::plan::Plan;
-use super::solve::{add, add_products, add_rows, dot, factor, inverse, solve};
+use super::solve::{add, add_products, add_rows, dot, factor, inverse, mirror, solve, upper};
 
 /// What solves a tick of one length. Corners that press are taken in by a system of their own, of as many unknowns as there are of them: with C the
 /// matrix without corners, the unknowns are `C⁻¹b + Σ y μ`, `y = C⁻¹g`, and `(1/2κ + gᵀy) μ = −e/2` gives the corners' forces μ, e the gaps at the

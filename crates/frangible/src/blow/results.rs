@@ -1,0 +1,82 @@
+//! Results of a blow: impulses, durations, energies, and the reports of its contacts.
+
+use std::f64::consts::PI;
+
+use super::Blow;
+use crate::contact::{ContactReport, Pulse};
+
+impl Blow {
+    /// What the contacts push each mode with, as given impulses would, N·s/√kg.
+    pub(crate) fn modal_impulse(&self) -> Vec<f64> {
+        let mut sums = vec![0.0; self.plan.modes];
+        for (k, drive) in self.plan.drive.iter().enumerate() {
+            let forces = self.record.forces_of(&self.plan, k);
+            let impulse = forces.sum::<f64>() * self.substep();
+            for (sum, xi) in sums.iter_mut().zip(drive) {
+                *sum += impulse * xi;
+            }
+        }
+        sums
+    }
+
+    /// Its time steps, and a half-sine of its length.
+    pub(crate) fn pulse(&self) -> Pulse {
+        let duration = self.duration().max(self.substep());
+        Pulse {
+            duration,
+            amplitude: 0.5 * PI / duration,
+            time_step: self.plan.time_step,
+            contact_steps: self.contact_steps(),
+            total_steps: self.motion.steps(),
+            longest_step: self.plan.time_step,
+        }
+    }
+
+    /// How long the contacts push, s.
+    pub(crate) fn duration(&self) -> f64 {
+        let count = self.plan.sites.len();
+        let last = self.record.forces.iter().rposition(|&f| f > 0.0);
+        last.map_or(0.0, |i| (i / count + 1) as f64 * self.substep())
+    }
+
+    /// What the contacts were expected to last, the shortest, s: Hertz' time, or what a script says.
+    pub(crate) fn expected_duration(&self) -> f64 {
+        let times = self.plan.sites.iter().map(|s| s.duration);
+        times.fold(f64::INFINITY, f64::min)
+    }
+
+    /// What became of each contact.
+    #[must_use]
+    pub fn reports(&self) -> Vec<ContactReport> {
+        let speeds = self.progress.contacts.speeds.iter().enumerate();
+        let of = |(k, &speed): (usize, &f64)| self.record.report(&self.plan, k, -speed);
+        speeds.map(of).collect()
+    }
+
+    /// Energy of all modes and wall oscillators when the contact parts, and what the motion of approach has lost, J: of one contact
+    /// without damping or friction, the same but for the error of the substeps, [what its striker takes](Self::strikers_energy)
+    /// and [what crushing takes](ContactReport::crushing_energy).
+    #[must_use]
+    pub fn energies(&self) -> [f64; 2] {
+        let mass = 1.0 / self.plan.inverse_mass[0];
+        let before = f64::from(self.plan.sites[0].touch.contact.approach_speed);
+        let after = self.progress.contacts.speeds[0];
+        [
+            self.progress.at_parting.map_or(0.0, |[of_body, _]| of_body),
+            0.5 * mass * (before * before - after * after),
+        ]
+    }
+
+    /// Energy of the modes and wall oscillators of breakable strikers when the contact parts, J.
+    #[must_use]
+    pub fn strikers_energy(&self) -> f64 {
+        (self.progress.at_parting).map_or(0.0, |[_, of_strikers]| of_strikers)
+    }
+
+    /// Energy of the body's vibration and of the pieces that move on their own, and the strain energy in it, at the end of each time step, J.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn energies_over_time(&self) -> &[[f64; 2]] {
+        &self.record.energies
+    }
+}
