@@ -2,23 +2,23 @@
 
 use glam::DVec3;
 
-/// Motions of groups of nodes at the end of a blow, against the rigid motion of the body.
+/// Motions of groups of nodes at the end of a blow, relative to the rigid motion of the body.
 pub(crate) struct Apart {
     /// Group of each node of the fracture mesh; 0 is the reference.
     pub(crate) of_node: Vec<u32>,
-    /// The motion of each group but the reference, whose own follows from those of the others.
+    /// Motion of each group but the reference, whose own follows from those of the others.
     pub(crate) motions: Vec<GroupMotion>,
-    /// Whether the body has supports, so that its reference group stands still.
+    /// If true, the body has supports and its reference group stands still.
     pub(crate) held: bool,
 }
 
-/// The rigid motion of a group of nodes.
+/// Rigid motion of a group of nodes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct GroupMotion {
     /// Centre of mass, m, frame of the fracture mesh.
     pub(crate) centre: DVec3,
-    /// m/s.
+    /// Velocity of the centre, m/s.
     pub(crate) velocity: DVec3,
-    /// rad/s.
+    /// Angular velocity, rad/s.
     pub(crate) angular: DVec3,
 }

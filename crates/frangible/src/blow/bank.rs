@@ -1,7 +1,7 @@
 //! Many oscillators side by side, stepped through a tick under forces that grow linearly.
 //!
-//! A contact is coupled to few of them: to the modes, and to the wall oscillators about it and not to those about the others. So each force
-//! has *spans*, whole groups of oscillators outside of which it pushes nothing, and others outside of which it feels nothing.
+//! A contact is coupled to few of them: to the modes and to the wall oscillators about it, not to those about other contacts. So each force has
+//! *spans*, ranges of whole groups of oscillators: it pushes only those in some spans, and feels only those in others.
 
 use std::ops::Range;
 
@@ -10,7 +10,7 @@ use crate::modal::Tick;
 /// Numbers that are added up side by side.
 const LANES: usize = 8;
 
-/// What a tick does to each oscillator: struct of arrays, filled up with oscillators that never move.
+/// Coefficients of each oscillator's tick: struct of arrays, padded with oscillators that never move.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Bank {
     own: [Vec<f64>; 4],
@@ -18,7 +18,7 @@ pub(super) struct Bank {
     ramp: [Vec<f64>; 2],
 }
 
-/// How hard each force pushes each oscillator, 1/√kg, and where it pushes any.
+/// Push of each force on each oscillator, 1/√kg, and the spans of oscillators that it pushes.
 #[derive(Clone, Copy)]
 pub(super) struct Pushes<'a> {
     pub(super) drive: &'a [Vec<f64>],
@@ -26,7 +26,7 @@ pub(super) struct Pushes<'a> {
 }
 
 impl Pushes<'_> {
-    /// Nothing pushes.
+    /// No pushes.
     pub(super) const NONE: Self = Self {
         drive: &[],
         spans: &[],
@@ -50,14 +50,14 @@ impl BankState {
         }
     }
 
-    /// Forgets all but the first so many oscillators, and those that fill up their last group.
+    /// Keeps only the first `oscillators` oscillators and those that pad their last group.
     pub(super) fn keep(&mut self, oscillators: usize) {
         self.x.truncate(padded(oscillators));
         self.v.truncate(padded(oscillators));
     }
 }
 
-/// The groups of oscillators that a force pushes, or feels, as this row has it: those side by side as one.
+/// Spans of the groups of oscillators in which this row, of pushes or of what is felt, is not zero; adjacent groups are one span.
 pub(super) fn spans(row: &[f64]) -> Vec<Range<usize>> {
     let mut spans: Vec<Range<usize>> = Vec::new();
     for first in (0..row.len()).step_by(LANES) {
@@ -73,13 +73,13 @@ pub(super) fn spans(row: &[f64]) -> Vec<Range<usize>> {
     spans
 }
 
-/// Number of oscillators with those that fill up the last group.
+/// Number of oscillators with those that pad the last group.
 pub(super) fn padded(oscillators: usize) -> usize {
     oscillators.next_multiple_of(LANES)
 }
 
 impl Bank {
-    /// Oscillators of these (ω, rad/s; d, 1/s) through a tick of this length, s.
+    /// Bank of oscillators with these (ω, rad/s; d, 1/s), for a tick of this length, s.
     pub(super) fn new(oscillators: &[(f64, f64)], tick: f64) -> Self {
         let count = padded(oscillators.len());
         let zeros = || vec![0.0; count];
@@ -101,7 +101,7 @@ impl Bank {
         bank
     }
 
-    /// A tick on, as if all forces stayed as they are.
+    /// Steps the oscillators through a tick under constant forces.
     #[inline(always)]
     pub(super) fn coast(&self, state: &mut BankState, pushes: &Pushes<'_>, forces: &[f64]) {
         let count = state.x.len();
@@ -115,7 +115,7 @@ impl Bank {
         self.push(state, &self.held, pushes, forces);
     }
 
-    /// What the tick makes of forces having grown by so much.
+    /// Adds the response over the tick to this growth of the forces.
     #[inline(always)]
     pub(super) fn grow(&self, state: &mut BankState, pushes: &Pushes<'_>, growth: &[f64]) {
         self.push(state, &self.ramp, pushes, growth);
@@ -141,7 +141,7 @@ impl Bank {
         }
     }
 
-    /// What a tick makes of a force on some oscillators side by side, times a factor, that stays as it is.
+    /// Adds the response over a tick to constant forces, times a factor, on consecutive oscillators from `first` on.
     #[inline(always)]
     pub(super) fn hold(&self, state: &mut BankState, first: usize, forces: &[f64], factor: f64) {
         let span = first..first + forces.len();
@@ -154,24 +154,24 @@ impl Bank {
         }
     }
 
-    /// ω q of some oscillators side by side after a tick per force that stays as it is.
+    /// ω q of consecutive oscillators after a tick, per constant force on each.
     pub(super) fn held_by(&self, which: Range<usize>) -> &[f64] {
         &self.held[0][which]
     }
 
-    /// ω q of some oscillators side by side after a tick in which a force that pushes them so has grown by a newton.
+    /// ω q of consecutive oscillators after a tick in which a force that pushes them with `drive` has grown by a newton.
     pub(super) fn ramp_by(&self, which: Range<usize>, drive: &[f64]) -> impl Iterator<Item = f64> {
         let ramp = self.ramp[0][which.clone()].iter();
         ramp.zip(&drive[which]).map(|(ramp, drive)| ramp * drive)
     }
 
-    /// Σ gap x of what a force on some oscillators side by side, which stays as it is, does in a tick.
+    /// Σ gap x of the response over a tick to constant forces on consecutive oscillators.
     pub(super) fn held_gap(&self, gap: &[f64], first: usize, forces: &[f64]) -> f64 {
         let terms = gap[first..].iter().zip(&self.held[0][first..]).zip(forces);
         terms.map(|((gap, held), force)| gap * held * force).sum()
     }
 
-    /// Σ gap x of what a unit growth of a force does in a tick: how far the contact gives way at once.
+    /// Σ gap x of the response over a tick to a unit growth of a force: how far the contact gives way at once.
     pub(super) fn give(&self, gap: &[f64], drive: &[f64]) -> f64 {
         let terms = gap.iter().zip(drive).zip(&self.ramp[0]);
         terms.map(|((gap, drive), ramp)| gap * drive * ramp).sum()

@@ -1,4 +1,4 @@
-//! The contacts of a blow from substep to substep: where the strikers are, and the forces that fit.
+//! The contacts of a blow from substep to substep: displacements of the strikers, and contact forces.
 
 use std::f64::consts::PI;
 
@@ -6,32 +6,32 @@ use super::bank::{BankState, dot_over};
 use super::flight::{Flight, Setup};
 use super::plan::Plan;
 
-/// Rounds over all contacts until their forces agree.
+/// Most rounds over all contacts until their forces agree.
 const MOST_ROUNDS: usize = 60;
 
-/// The contacts between two substeps: a number of each in every list.
+/// State of the contacts between two substeps: lists with an entry per contact.
 #[derive(Clone, Debug)]
 pub(super) struct Contacts {
     /// Length of a substep, s.
     pub(super) dt: f64,
-    /// How far each striker has come, against the body as a rigid one, m, and how fast it does, m/s.
+    /// Displacement of each striker relative to the rigid motion of the body, m, and its rate, m/s.
     ways: Vec<f64>,
     pub(super) speeds: Vec<f64>,
-    /// Force now, at the end of the substep, and by how much it grows, N.
+    /// Force now, force at the end of the substep, and growth in it, N.
     pub(super) forces: Vec<f64>,
     pub(super) next: Vec<f64>,
     pub(super) growth: Vec<f64>,
-    /// The gaps at the end of the substep if no force grew, less what stays of the forces in the static part, m.
+    /// Gaps at the end of the substep if no force grew, without the part that the residual compliance takes, m.
     bases: Vec<f64>,
-    /// What the body gives way by more than it did, m/N.
+    /// Compliance that cracks have added to the body, m/N.
     pub(super) weakness: Vec<f64>,
     /// Square roots of the springs' dents, m^½.
     roots: Vec<f64>,
     /// The largest forces so far, N.
     largest: Vec<f64>,
-    /// Depth at which each striker touches, m: 0, or where it was when it went on to what is beside a piece that has flown off.
+    /// Depth at which each striker touches, m: 0, or its depth when it went on to the group beside a piece that has flown off.
     deeper: Vec<f64>,
-    /// What a unit growth of one force takes from a gap within a substep, m/N: row-major, gap by gap.
+    /// Reduction of a gap per unit growth of one force within a substep, m/N: row-major, gap by gap.
     give: Vec<f64>,
 }
 
@@ -64,7 +64,7 @@ impl Contacts {
         }
     }
 
-    /// Finds the bases, with the oscillators at the end of the substep as if no force grew.
+    /// Computes the bases. `state`: the oscillators at the end of the substep if no force grew.
     #[inline(always)]
     pub(super) fn foresee(&mut self, setup: Setup<'_>, state: &BankState, flight: &Flight) {
         let (plan, dt) = (setup.plan, self.dt);
@@ -81,8 +81,8 @@ impl Contacts {
         }
     }
 
-    /// Finds the forces at the end of the substep, at the time t, s, each in turn until they agree. `through_pieces`: what a unit growth of one force
-    /// takes from a gap through pieces that move on their own, m/N; empty where there are none.
+    /// Computes the forces at the end of the substep, at the time t, s, contact by contact until they agree. `through_pieces`: reduction of a gap per
+    /// unit growth of one force, through pieces that move on their own, m/N; empty where there are none.
     #[inline(always)]
     pub(super) fn solve(&mut self, plan: &Plan, t: f64, through_pieces: &[f64]) {
         let count = self.forces.len();
@@ -102,7 +102,7 @@ impl Contacts {
         }
     }
 
-    /// The force of contact `k` at the end of the substep where all others are known, N.
+    /// Computes the force of contact `k` at the end of the substep from those of all others, N.
     #[inline(always)]
     fn force(&mut self, plan: &Plan, k: usize, t: f64, through_pieces: &[f64]) -> f64 {
         let count = self.forces.len();
@@ -157,8 +157,8 @@ impl Contacts {
         }
     }
 
-    /// Lets strikers that still come nearer go on, in a substep, to what is beside the pieces under them, which have flown off; whether any does. They
-    /// touch that from where they are on: nothing is pressed at once.
+    /// Moves strikers that still approach on, in a substep, to the groups beside the pieces under them, which have flown off. They touch these at
+    /// their present depth, so nothing is pressed at once. Returns true if any striker goes on.
     pub(super) fn go_on(
         &mut self,
         setup: Setup<'_>,
@@ -181,18 +181,18 @@ impl Contacts {
         any
     }
 
-    /// Whether any striker approaches the rigid motion of the body; scripts do not count.
+    /// Returns true if any striker approaches the rigid motion of the body; scripts do not count.
     pub(super) fn approach(&self, plan: &Plan) -> bool {
         let mut sites = plan.sites.iter().zip(&self.speeds);
         sites.any(|(site, &speed)| site.script.is_none() && speed > 0.0)
     }
 
-    /// Whether all contact forces are zero.
+    /// Returns true if all contact forces are zero.
     pub(super) fn are_open(&self) -> bool {
         self.forces.iter().all(|&f| f <= 0.0)
     }
 
-    /// Whether the gaps of all contacts are open and growing, and all scripts are over.
+    /// Returns true if the gaps of all contacts are open and growing, and all scripts are over.
     #[inline(always)]
     pub(super) fn have_parted(
         &self,
@@ -209,7 +209,7 @@ impl Contacts {
             if let Some([_, duration]) = site.script {
                 return t >= duration;
             }
-            // ω q and q̇ are felt alike.
+            // `gap` is per ω q: times ω it is per q, and so per q̇.
             let give: f64 = (plan.gap[k].iter().zip(&plan.oscillators).zip(&state.v))
                 .map(|((gap, (w, _)), v)| gap * w * v)
                 .sum();
