@@ -1,4 +1,4 @@
-//! How contacts are coupled to what vibrates: which oscillators each pushes, which it feels, and what follows its force.
+//! Coupling of contacts to vibrating bodies: the oscillators that each contact pushes and feels, and the residual compliance.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -12,7 +12,7 @@ use crate::contact::Receptance;
 use crate::near_field::Bands;
 
 impl Plan {
-    /// Couples the contacts to the body: they push its oscillators, and feel these or, where any rubs, others that friction does not push.
+    /// Couples the contacts to the body: they push its oscillators, and feel these or, if any contact rubs, copies that friction does not push.
     pub(super) fn couple_body(&mut self, felt: &[(Receptance, Push)]) {
         let rubs = |s: &Site| s.touch.contact.friction != Vec3::ZERO;
         let rubs = self.sites.iter().any(rubs);
@@ -35,7 +35,7 @@ impl Plan {
         };
     }
 
-    /// How contacts push and feel the oscillators of one body, and each other through what follows the force: the compliances, m/N, row-major.
+    /// Sets the contacts' pushes on the oscillators of their bodies, and what they feel of them. Returns the residual compliances, m/N, row-major.
     fn couple(&mut self, contacts: &[Coupled<'_>]) -> Vec<f64> {
         let count = self.sites.len();
         let mut compliance = vec![0.0; count * count];
@@ -58,7 +58,7 @@ impl Plan {
                     }
                 }
             }
-            // What is not felt holds energy all the same.
+            // The residual compliance holds energy even if it is not felt.
             let shape = if one.is_felt { &felt.shape } else { one.drive };
             for other in contacts.iter().filter(|other| other.first == one.first) {
                 let entry = &mut compliance[one.contact * count + other.contact];
@@ -77,8 +77,7 @@ impl Plan {
         compliance
     }
 
-    /// Adds the oscillators of breakable bodies that strike: what contact k feels of its striker, if that vibrates. Contacts of one body
-    /// that strikes at several points push the same modes.
+    /// Adds the oscillators of breakable strikers, which their contacts feel. Contacts of one striker at several points push the same modes.
     pub(super) fn add_strikers(&mut self) {
         let strikers: Vec<(usize, Arc<Receptance>)> = (self.sites.iter().enumerate())
             .filter_map(|(k, site)| {
@@ -101,7 +100,7 @@ impl Plan {
                 || {
                     let first = self.oscillators.len();
                     self.oscillators.extend(felt.oscillators());
-                    // One that follows no mode has a number of its own all the same.
+                    // A striker without followed modes needs a number of its own all the same.
                     if felt.followed == 0 {
                         self.oscillators.push((1.0, 0.0));
                     }
@@ -124,11 +123,11 @@ impl Plan {
         self.strikers = before..self.oscillators.len();
     }
 
-    /// Adds the body's oscillators once more, driven by the normal forces alone, and lets the contacts feel these in place of the ones that
-    /// friction drives too.
+    /// Adds the body's oscillators once more, driven by the normal forces alone, and lets the contacts feel these in place of the ones that friction
+    /// drives too.
     ///
-    /// Friction follows the normal force, and may move the place that is touched towards the striker: felt, it would add energy without end.
-    /// Returns what the contacts feel follow the force, m/N, row-major.
+    /// Friction follows the normal force, and may move the touched place towards the striker: felt, it would add energy without end. Returns the
+    /// residual compliances that the contacts feel, m/N, row-major.
     fn feel_without_friction(&mut self, felt: &[(Receptance, Push)]) -> Vec<f64> {
         let first = self.fill_group();
         self.felt_first = first;
@@ -147,7 +146,7 @@ impl Plan {
         self.couple(&coupled)
     }
 
-    /// Fills the last group up with oscillators that nothing pushes, and returns how many there are then.
+    /// Pads the last group with oscillators that nothing pushes, and returns the number of oscillators.
     fn fill_group(&mut self) -> usize {
         let count = padded(self.oscillators.len());
         self.oscillators.resize(count, (1.0, 0.0));
@@ -167,10 +166,10 @@ impl Plan {
 struct Coupled<'a> {
     contact: usize,
     felt: &'a Receptance,
-    /// How the contact pushes the body's modes, 1/√kg, and which share of its force acts across the wall.
+    /// Push of the contact on the body's modes, 1/√kg, and share of its force that acts across the wall.
     drive: &'a [f64],
     across: f64,
-    /// Whether the contact feels these oscillators.
+    /// If true, the contact feels these oscillators.
     is_felt: bool,
     /// Number of the body's first mode among the oscillators: contacts with the same number push the same modes.
     first: usize,
@@ -179,7 +178,7 @@ struct Coupled<'a> {
 }
 
 impl<'a> Coupled<'a> {
-    /// A body that the contact's normal force pushes, and that it feels.
+    /// Coupling to a body that the contact's normal force alone pushes, and that the contact feels.
     fn without_friction(
         contact: usize,
         felt: &'a Receptance,
@@ -198,7 +197,7 @@ impl<'a> Coupled<'a> {
     }
 }
 
-/// Puts the wall oscillators of a contact behind the others.
+/// Appends the wall oscillators of a contact to the others, and returns their range.
 pub(super) fn add_waves(
     felt: &Receptance,
     bands: &Bands,

@@ -20,14 +20,14 @@ use crate::error::InputError;
 use crate::motion::{DisplacementBatch, Motion, Residual};
 use crate::stress::{STRIDE, Shape, Symmetric3, lane};
 
-/// A star counts anew when it gives way by this factor more.
+/// Factor by which a star's compliance must have grown for the forces to be found anew.
 const GREW: f64 = 1.3;
 
-/// A blow that breaks a body is over after so many times the time that the whole body's takes: what still rests on a contact then is held by it,
+/// Longest duration of a blow that breaks a body, in durations of the blow on the whole body: what still rests on a contact after that is held by it,
 /// and no longer struck.
 const LONGER: usize = 4;
 
-/// Time steps that a motion which cracks have changed is followed for at a time, in batches: they mostly change it again before its end.
+/// Batches of time steps for which a motion that cracks have changed is followed at a time: cracks mostly change it again before its end.
 const BATCHES: usize = 2;
 
 /// A blow, integrated: the forces of its contacts and the motion of the body.
@@ -35,29 +35,29 @@ const BATCHES: usize = 2;
 pub struct Blow {
     pub(super) plan: Plan,
     instant: bool,
-    /// Substeps after which the contacts are over at the latest.
+    /// Substeps after which the contacts are cut off.
     longest: usize,
     /// The shapes that follow each contact's force.
     shapes: Vec<Option<Arc<Shape>>>,
     pub(super) record: Record,
     pub(super) progress: Progress,
-    /// An earlier state, from which on the motion is found anew when cracks change it.
+    /// An earlier state, from which the motion is found anew when cracks change it.
     saved: Option<Box<Progress>>,
     /// The node of the fracture mesh under each contact.
     nodes: Vec<u32>,
-    /// What cracks have made of the body under the contacts.
+    /// Softening of the body under the contacts by cracks.
     softer: Vec<Softening>,
-    /// What has parted.
+    /// Partings of pieces, in the order of time.
     parted: Vec<Parted>,
-    /// What the body does.
+    /// Motion of the body over time.
     pub(crate) motion: Motion,
 }
 
 impl Blow {
-    /// The blow of these contacts on a body, which nothing breaks; none where nothing pushes.
+    /// Integrates the blow of these contacts on a body that does not break. Returns `None` if no contact pushes.
     ///
     /// # Errors
-    /// What [`Contact::validate`] and [`FractureConfig::validate`] refuse.
+    /// Returns the errors of [`Contact::validate`] and [`FractureConfig::validate`].
     pub fn new(
         body: &Body,
         contacts: &[Contact],
@@ -66,7 +66,7 @@ impl Blow {
         Self::with_substep(body, contacts, config, None)
     }
 
-    /// [`Blow::new`] with substeps no longer than this, s: what the error of the default is measured with.
+    /// [`Blow::new`] with substeps no longer than `longest`, s: used to measure the error of the default.
     #[doc(hidden)]
     pub fn with_substep(
         body: &Body,
@@ -112,13 +112,13 @@ impl Blow {
         Some(blow)
     }
 
-    /// The most energy that strikers and body can lose by meeting, J: what they hold of motion against each other at the contacts.
-    /// Scripts bring none.
+    /// The most energy that strikers and body can lose by meeting, J: the kinetic energy of their relative motion at the contacts. Scripts bring
+    /// none.
     pub(crate) fn approach_energy(&self) -> f64 {
         self.plan.approach_energy()
     }
 
-    /// Whether strikers push, and no script.
+    /// Returns true if strikers push and no scripts do.
     pub(crate) fn is_of_strikers(&self) -> bool {
         self.plan.sites.iter().all(|site| site.script.is_none())
     }
@@ -134,7 +134,7 @@ impl Blow {
         self.plan.sites.iter().map(|s| s.touch.triangle).collect()
     }
 
-    /// Time steps until the contacts have parted, as far as they have been followed.
+    /// Number of time steps until the contacts have parted, or so far if they have not.
     pub(super) fn contact_steps(&self) -> usize {
         let after = self.progress.after;
         after.map_or(self.progress.step, |after| after.contact_steps)
@@ -151,7 +151,7 @@ impl Blow {
         &self.motion
     }
 
-    /// Velocity and angular velocity of each piece that moves on its own in the end, against the whole body's rigid motion, m/s and rad/s.
+    /// Velocity and angular velocity of each piece that moves on its own at the end, relative to the rigid motion of the whole body, m/s and rad/s.
     #[doc(hidden)]
     #[must_use]
     pub fn drifts(&self) -> Vec<[DVec3; 2]> {
@@ -159,7 +159,7 @@ impl Blow {
         flight.drifts(self.setup(), state)
     }
 
-    /// Motion of each group against the rigid motion of the body; none where nothing has parted.
+    /// Motion of each group relative to the rigid motion of the body; none if nothing has parted.
     pub(crate) fn apart(&self, body: &Body) -> Option<Apart> {
         let parted = self.parted.last()?;
         Some(Apart {
@@ -169,7 +169,7 @@ impl Blow {
         })
     }
 
-    /// Lets pieces part at a time step, as cracks do: `piece_of_node` has the piece of each node of the fracture mesh, the largest first.
+    /// Parts pieces at a time step, as cracks do. `piece_of_node`: piece of each node of the fracture mesh, the largest first.
     #[doc(hidden)]
     pub fn part(&mut self, body: &Body, piece_of_node: &[u32], pieces: usize, step: usize) {
         let (groups, _) = self.groups(body, (piece_of_node, pieces), step);
@@ -179,7 +179,7 @@ impl Blow {
         self.motion = motion;
     }
 
-    /// The body's stress at the weak place of fracture tetrahedron `tet` at a time step of the blow, Pa, as cracks feel it.
+    /// Stress of the body at the weak point of fracture tetrahedron `tet` at a time step of the blow, Pa, as cracks feel it.
     #[must_use]
     pub fn stress(
         &self,
@@ -196,8 +196,8 @@ impl Blow {
         field.at_weak_point(tet as usize).stress(lane(step))
     }
 
-    /// The contacts whose forces must be found anew, because cracks have cut the wall under them: their numbers, and what the star under each
-    /// gives way by, m/N.
+    /// Contacts whose forces must be found anew, because cracks have cut the wall under them: their numbers, and the compliance of the star under
+    /// each, m/N.
     pub(crate) fn weakened(&self, system: &CrackSystem) -> Vec<(usize, f64)> {
         let sites = self.plan.sites.iter().enumerate();
         let walls = sites.filter_map(|(k, site)| Some((k, site.near.as_ref()?)));
@@ -211,13 +211,13 @@ impl Blow {
         weakened.collect()
     }
 
-    /// Whether contacts still push at a time step.
+    /// Returns true if contacts still push at a time step.
     pub(crate) fn pushes_at(&self, step: usize) -> bool {
         (self.progress.after).is_none_or(|after| step < after.contact_steps)
     }
 
-    /// The groups of nodes that move on their own once these pieces have parted at a time step, none where nothing new has, and whether each piece
-    /// does.
+    /// Groups of nodes that move on their own once these pieces have parted at a time step, none if no new group has formed. Also, for each piece,
+    /// false if it has parted but moves with its parent group.
     pub(crate) fn groups(
         &self,
         body: &Body,
@@ -245,8 +245,8 @@ impl Blow {
         nodes
     }
 
-    /// Goes on from a time step on with a body of which these groups have parted, and with contacts where it gives way by so much more than
-    /// it did, m/N. The steps before stay as they were, bit for bit; those after it are known [as far as they are asked for](Self::go_further).
+    /// Goes on from a time step with a body of which these groups have parted, and whose compliance under these contacts is larger by so much,
+    /// m/N. The steps before stay as they were, bit for bit; those after it are known [as far as they are asked for](Self::go_further).
     pub(crate) fn go_on(
         &mut self,
         body: &Body,
@@ -279,7 +279,7 @@ impl Blow {
         self.integrate(motion, self.horizon());
     }
 
-    /// Follows the motion some steps further; no where it is over.
+    /// Follows the motion some steps further. Returns false if it is over.
     pub(crate) fn go_further(&mut self, motion: &mut Motion) -> bool {
         let goes = !self.progress.is_over();
         if goes {
@@ -296,15 +296,15 @@ impl Blow {
         }
     }
 
-    /// The most that the strain energy may become, J, where that is known.
+    /// Upper bound of the strain energy over the whole motion, J; none while contacts push.
     pub(crate) fn most_energy(&self, motion: &Motion) -> Option<f64> {
-        // Once nothing pushes any more, what is there only changes its form.
+        // Without pushes, the energy that is there only changes its form.
         self.progress.after?;
         let [whole, _] = self.record.energies.last()?;
         Some(motion.peak_strain_energy.max(*whole))
     }
 
-    /// The time step to which a motion is followed next: whole batches on.
+    /// Time step to which the motion is followed next, a few whole batches on.
     fn horizon(&self) -> usize {
         match self.instant {
             true => usize::MAX,
@@ -337,7 +337,7 @@ impl Blow {
         });
     }
 
-    /// Follows the motion to a time step, with what the modes leave out.
+    /// Follows the motion to a time step, with the parts that the modes leave out.
     fn integrate(&mut self, motion: &mut Motion, until: usize) {
         let before = self.progress.step;
         self.follow(motion, until);

@@ -1,4 +1,4 @@
-//! Faces of pieces that press on each other when they close: at the four corners of the outline that they have in common.
+//! Faces of pieces that press on each other when they close: at the four corners of their common outline.
 
 use glam::{DMat3, DVec3};
 
@@ -7,23 +7,23 @@ use super::parted::{SIX, outer, wrench};
 use crate::body::Body;
 use crate::mesh::FACES;
 
-/// Faces press where their mean direction over all of their area is at least so long, as a share of it: 1 is flat, a crater that is half a
-/// ball 1/2, and the side of a plug that nothing holds along its axis 0.
+/// Least flatness of faces that press: length of their vector area over their area. It is 1 for a flat face, 1/2 for a crater that is half a ball,
+/// and 0 for the side of a plug that nothing holds along its axis.
 const FLAT: f64 = 0.25;
 
-/// Two faces of different groups press on each other here when they close.
+/// Corner of the common outline of two groups' faces, at which they press on each other when they close.
 #[derive(Clone, Debug)]
 pub(super) struct Corner {
-    /// What opens the gap: number of the first of six unknowns, and the gap that each of these makes. The reference has none.
+    /// For both sides, number of the first of six unknowns, and the gap per unit of each of these. The reference has none.
     sides: [Option<(usize, [f64; SIX])>; 2],
-    /// N/m.
+    /// Stiffness of its spring, N/m.
     pub(super) stiffness: f64,
-    /// Which face it is of, and which of its corners.
+    /// Face, as its two groups, and number of the corner in it.
     of: ([u32; 2], usize),
 }
 
 impl Corner {
-    /// Whether it is a corner of the same face, which has not changed.
+    /// Returns true if `other` is the same corner of the same face, with the same stiffness.
     pub(super) fn is(&self, other: &Self) -> bool {
         self.of == other.of && self.stiffness.to_bits() == other.stiffness.to_bits()
     }
@@ -32,7 +32,7 @@ impl Corner {
         self.sides.iter().flatten()
     }
 
-    /// The gap of these unknowns, m.
+    /// Gap for these unknowns, m.
     #[inline(always)]
     pub(super) fn gap(&self, unknowns: &[f64]) -> f64 {
         let of_side = |(first, row): &(usize, [f64; SIX])| {
@@ -42,7 +42,7 @@ impl Corner {
         self.sides().map(of_side).sum()
     }
 
-    /// Adds what this force that opens the gap, N, does to the unknowns.
+    /// Adds the push of a force that opens the gap, N, on each unknown.
     #[inline(always)]
     pub(super) fn push(&self, force: f64, unknowns: &mut [f64]) {
         for (first, row) in self.sides() {
@@ -52,7 +52,7 @@ impl Corner {
     }
 }
 
-/// The face between two groups: direction from the first to the second times area, area, and moments of the area.
+/// The face between two groups: vector area from the first to the second, area, and moments of the area.
 struct Face {
     between: [u32; 2],
     across: DVec3,
@@ -61,7 +61,7 @@ struct Face {
     second: DMat3,
 }
 
-/// The corners of all faces between groups. `mixed`: the tetrahedra that have nodes of several.
+/// Corners of all faces between groups that can press. `mixed`: the tetrahedra that have nodes of several groups.
 pub(super) fn corners(
     body: &Body,
     groups: &Groups,
@@ -89,7 +89,7 @@ pub(super) fn corners(
             corners.push(Corner {
                 of: (face.between, k),
                 sides: [side(-1.0, first), side(1.0, second)],
-                // An edge of the outline gives way by some 4/(E' × its length), and has two corners.
+                // The compliance of an edge of the outline is some 4/(E' × its length), and it has two corners.
                 stiffness: modulus * face.area.sqrt() / 8.0,
             });
         }
