@@ -1,12 +1,12 @@
-//! How pieces that have parted move while a blow goes on and after it, tick by tick.
+//! Motion of pieces that have parted, during a blow and after it, tick by tick.
 //!
 //! The midpoint rule for the pieces, the exact step for the oscillators: over a tick h the pieces push these with the constant force B s,
 //! B = ΛP, and with c̄ = (c + c₁)/2 the mean of the pieces' unknowns before and after it,
 //!
 //! `M (4 (c̄ − c)/h² − 2w/h) = ½ Bᵀ(Q + Q₁) − W s + α Bᵀ(Q₁ − Q)/h − β M (c₁ − c)/h + z (F + F₁)/2 − κ g (g · c₁)`, `s = c̄ + α (c₁ − c)/h`,
 //!
-//! W = PᵀΛP, w = ċ, g what opens a corner of two faces that press on each other, κ its spring. Without damping, loads and corners that open
-//! or close this keeps energy and the pieces' momentum, whatever the tick; a corner that opens or closes only loses energy.
+//! W = PᵀΛP, w = ċ, g the gap of a corner per unknown, for corners of two faces that press on each other, κ its spring. Without damping, loads and
+//! corners that open or close this keeps energy and the pieces' momentum, whatever the tick; a corner that opens or closes only loses energy.
 
 use glam::DVec3;
 
@@ -17,10 +17,10 @@ use super::plan::Plan;
 use super::solve::{add, add_products, add_rows, dot};
 use super::solver::Solver;
 
-/// Rounds over the corners until those that press are those that are closed.
+/// Most rounds over the corners until those that press are those that are closed.
 const MOST_ROUNDS: usize = 8;
 
-/// A blow, and what parts in it, in the order of time.
+/// A blow, and the partings in it, in the order of time.
 #[derive(Clone, Copy)]
 pub(super) struct Setup<'a> {
     pub(super) plan: &'a Plan,
@@ -30,7 +30,7 @@ pub(super) struct Setup<'a> {
 /// The motion of the pieces.
 #[derive(Clone, Debug)]
 pub(super) struct Flight {
-    /// How many of the partings have been.
+    /// Number of partings so far.
     partings: usize,
     /// The substep in which each contact has gone on, since the last parting, to the group beside the one under it.
     pub(super) gone_on: Vec<Option<usize>>,
@@ -43,7 +43,7 @@ pub(super) struct Flight {
 struct Lane {
     /// Number of the first mode among the oscillators.
     first: usize,
-    /// c and ċ.
+    /// c and ċ: unknowns of the pieces, and their rates.
     at: Vec<f64>,
     rate: Vec<f64>,
     /// Right side of the equation of the tick and its solution without corners, and c̄, as if no force grew.
@@ -53,12 +53,12 @@ struct Lane {
     gaps: Vec<f64>,
     /// Weighted mean of ω Q over the tick, and then the elastic force on each mode.
     force: Vec<f64>,
-    /// Its motion is that of pushes with friction, 0, or without, 1.
+    /// Kind of its pushes: 0 with friction, 1 without.
     pushes: usize,
-    /// Which corners press.
+    /// True for each corner that presses.
     press: Vec<bool>,
-    /// The gap at which each closes, m: 0, or what it was when its face came about. Pieces that slide along a rough face are not pushed apart
-    /// by the parts that it is cut into.
+    /// Gap at which each corner closes, m: 0, or the negative gap that it had when its face came about. So pieces that slide along a rough face are
+    /// not pushed apart by the parts that it is cut into.
     closed: Vec<f64>,
     solver: Solver,
 }
@@ -87,7 +87,7 @@ impl Lane {
             let mut changes = false;
             let corners = self.press.iter_mut().zip(&parted.corners);
             for ((press, corner), gap) in corners.zip(&self.gaps) {
-                // Those that press move the others.
+                // Corners that press move the others.
                 let more = match is_pressed {
                     true => 2.0 * (corner.gap(&self.middle) - corner.gap(&self.given)),
                     false => 0.0,
@@ -108,7 +108,7 @@ impl Lane {
 }
 
 impl Flight {
-    /// Nothing has parted yet.
+    /// Motion before anything has parted.
     pub(super) fn new(plan: &Plan) -> Self {
         let lane = |(pushes, first)| Lane {
             first,
@@ -131,19 +131,19 @@ impl Flight {
         }
     }
 
-    /// Whether any piece moves on its own.
+    /// Returns true if any piece moves on its own.
     #[inline(always)]
     pub(super) fn is_on(&self) -> bool {
         self.partings > 0
     }
 
-    /// How the pieces move that have parted last.
+    /// Returns the last parting so far, if any.
     #[inline(always)]
     fn parted<'a>(&self, setup: Setup<'a>) -> Option<&'a Parted> {
         setup.parted.get(self.partings.checked_sub(1)?)
     }
 
-    /// Lets part what has parted by now: `due` says of each whether it has.
+    /// Parts the pieces that are due by now: `due` returns true for these.
     pub(super) fn part(&mut self, setup: Setup<'_>, due: impl Fn(&Parted) -> bool) {
         while let Some(parted) = setup.parted.get(self.partings).filter(|p| due(p)) {
             let known = self.parted(setup);
@@ -153,7 +153,7 @@ impl Flight {
                 lane.rate = parted.inherit(known, &lane.rate);
                 lane.given = vec![0.0; n];
                 lane.middle = vec![0.0; n];
-                // Faces that were there go on as they were.
+                // Corners of faces that were there keep their state.
                 let corners = known.map_or(&[][..], |parted| &parted.corners);
                 let place = |corner: &Corner| corners.iter().position(|known| known.is(corner));
                 let kept = parted.corners.iter().map(|corner| match place(corner) {
@@ -168,7 +168,7 @@ impl Flight {
         }
     }
 
-    /// Lets a contact go on, in a substep, to the group beside the one under it. False where there is none, or it has.
+    /// Moves a contact on, in a substep, to the group beside the one under it. Returns false if there is none or it has gone on already.
     pub(super) fn go_on(&mut self, setup: Setup<'_>, contact: usize, substep: usize) -> bool {
         let beside = self.parted(setup).and_then(|parted| parted.beside[contact]);
         if beside.is_none() || self.gone_on[contact].is_some() {
@@ -181,12 +181,12 @@ impl Flight {
         true
     }
 
-    /// Once nothing pushes any more: the body swings alone.
+    /// Drops the motion under the normal forces alone: once nothing pushes any more, the body swings alone.
     pub(super) fn end_contacts(&mut self) {
         self.lanes.truncate(1);
     }
 
-    /// Takes down where the oscillators are before a tick of this length, s.
+    /// Records the elastic forces before a tick of this length, s, and prepares the solvers for it.
     #[inline(always)]
     pub(super) fn begin(&mut self, setup: Setup<'_>, state: &BankState, bank: &Bank, tick: f64) {
         let Some(parted) = self.parted(setup) else {
@@ -209,7 +209,7 @@ impl Flight {
         }
     }
 
-    /// Finds what the pieces do in the tick if these forces, N, last, and pushes the oscillators, which have coasted through it, with that.
+    /// Computes the motion of the pieces in the tick if these forces, N, last. Pushes the oscillators, which have coasted through the tick, with it.
     #[inline(always)]
     pub(super) fn foresee(
         &mut self,
@@ -261,7 +261,7 @@ impl Flight {
         }
     }
 
-    /// How far the pieces have moved a contact by the end of the tick if no force grows, m.
+    /// Displacement of a contact by the pieces at the end of the tick if no force grows, m.
     #[inline(always)]
     pub(super) fn gap(&self, setup: Setup<'_>, contact: usize) -> f64 {
         let Some(parted) = self.parted(setup) else {
@@ -271,7 +271,7 @@ impl Flight {
         2.0 * dot(z, &lane.middle) - dot(z, &lane.at)
     }
 
-    /// How far they have moved it by now, m.
+    /// Displacement of a contact by the pieces now, m.
     pub(super) fn gap_now(&self, setup: Setup<'_>, contact: usize) -> f64 {
         let parted = self.parted(setup);
         parted.map_or(0.0, |parted| {
@@ -279,7 +279,7 @@ impl Flight {
         })
     }
 
-    /// How fast they move it, m/s.
+    /// Speed at which the pieces move a contact, m/s.
     pub(super) fn gap_speed(&self, setup: Setup<'_>, contact: usize) -> f64 {
         let Some(parted) = self.parted(setup) else {
             return 0.0;
@@ -287,8 +287,8 @@ impl Flight {
         dot(parted.push(contact, &self.gone_on), &self.felt().rate)
     }
 
-    /// What a newton that the force of one contact grows by in the tick moves another by through the pieces, m/N: row-major; empty where nothing
-    /// has parted.
+    /// Displacement of each contact, through the pieces, per newton that each force grows by in the tick, m/N: row-major; empty if nothing has
+    /// parted.
     #[inline(always)]
     pub(super) fn give(&self) -> &[f64] {
         &self.felt().solver.give
@@ -298,7 +298,7 @@ impl Flight {
         &self.lanes[self.lanes.len() - 1]
     }
 
-    /// Ends the tick, in which the forces have grown by so much, N.
+    /// Ends the tick, over which the forces have grown by `growth`, N.
     #[inline(always)]
     pub(super) fn end(&mut self, state: &mut BankState, bank: &Bank, growth: &[f64]) {
         if !self.is_on() {
@@ -319,7 +319,7 @@ impl Flight {
         }
     }
 
-    /// Finds q', the elastic part of the amplitudes, m·√kg.
+    /// Computes q', the elastic part of the amplitudes, m·√kg.
     #[inline(always)]
     pub(super) fn elastic(&self, setup: Setup<'_>, state: &BankState, elastic: &mut Vec<f64>) {
         let amplitudes = state.x.iter().zip(&setup.plan.periods);
@@ -333,7 +333,7 @@ impl Flight {
         }
     }
 
-    /// What the pieces change in the energy of the modes, and in the strain energy in it, J, with this q'.
+    /// Energy that the pieces add to that of the modes, and strain energy in it, J, for this q'.
     pub(super) fn energies(
         &self,
         setup: Setup<'_>,
@@ -363,7 +363,7 @@ impl Flight {
         [strain + 0.5 * moved.sum::<f64>(), strain]
     }
 
-    /// Velocity and angular velocity of each group against the whole body's rigid motion, m/s and rad/s; of the reference none.
+    /// Velocity and angular velocity of each group but the reference, relative to the rigid motion of the whole body, m/s and rad/s.
     pub(super) fn drifts(&self, setup: Setup<'_>, state: &BankState) -> Vec<[DVec3; 2]> {
         let Some(parted) = self.parted(setup) else {
             return Vec::new();

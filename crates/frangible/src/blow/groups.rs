@@ -1,38 +1,38 @@
-//! Which nodes of the fracture mesh move together once pieces have parted.
+//! Groups of nodes of the fracture mesh that move together once pieces have parted.
 
 use crate::asset::{Asset, FOREIGN};
 use crate::body::MeshIndex;
 
-/// Pieces of a smaller share of the body's volume move with what they came from, unless a contact pushes them.
+/// Smallest share of the body's volume of pieces that move on their own. Smaller ones move with their parent group, unless a contact pushes them.
 const SMALLEST: f64 = 2e-3;
 
 /// Most pieces that move on their own.
 const MOST: usize = 12;
 
-/// Which nodes move together.
+/// Groups of nodes that move together.
 #[derive(Clone, Debug)]
 pub(crate) struct Groups {
     /// Group of each node of the fracture mesh; 0 is the reference.
     pub(super) of_node: Vec<u32>,
-    /// The group that each was part of before.
+    /// For each group, the group that it was part of before.
     pub(super) parents: Vec<u32>,
 }
 
 impl Groups {
-    /// The group that goes on as what a group before was.
+    /// Returns the group that continues group `before` of the last parting, if any does.
     pub(super) fn heir(&self, before: u32) -> Option<u32> {
         let heir = self.parents.iter().position(|&parent| parent == before);
         heir.map(|heir| heir as u32)
     }
 
-    /// What is left of the group that this one has just parted from; none where it is that itself.
+    /// Returns the rest of the group that this one has just parted from; none if this one is that rest.
     pub(super) fn beside(&self, group: u32) -> Option<u32> {
         let heir = self.heir(self.parents[group as usize]);
         heir.filter(|&heir| heir != group)
     }
 
-    /// The groups that these pieces make, none where they are those that there were `before`, and whether each piece moves on its own.
-    /// `piece_of_node` has labels from [`FOREIGN`] on for nodes of other bodies, `pushed` the nodes under contacts.
+    /// Groups that these pieces make, none if no new one forms. Also, for each piece, false if it has parted but moves with its parent group.
+    /// `piece_of_node` has labels from [`FOREIGN`] on for nodes of other bodies; `pushed` are the nodes under contacts.
     pub(crate) fn next(
         before: Option<&Self>,
         asset: &Asset,
@@ -69,7 +69,7 @@ impl Groups {
             marks
         };
         let (held, touched) = (marked(&asset.supported), marked(pushed));
-        // The largest child goes on as what its parent was; of a held body all that is still held.
+        // The largest child continues its parent; the reference of a held body is continued by all that is still held.
         let heir = |group: usize| {
             if group == 0 && asset.is_supported() {
                 return None;
@@ -102,7 +102,7 @@ impl Groups {
         if parents.len() == count_before {
             return (None, acts);
         }
-        // A group may be gone: what it was is too small by now, and part of a neighbour.
+        // A group may have vanished: its rest is too small by now, and part of a neighbour.
         let mut numbers = vec![u32::MAX; parents.len()];
         numbers[0] = 0;
         group_of

@@ -10,57 +10,57 @@ use super::plan::Plan;
 use super::record::Record;
 use crate::motion::Motion;
 
-/// A blow of so many substeps is cut off: a contact that lasts this long is none of a blow's.
+/// Most substeps of a blow, which is cut off there: a contact that lasts longer is not part of a blow.
 pub(super) const MOST_SUBSTEPS: usize = 60_000;
 
 /// Most time steps of each of the two parts of the motion after the contact; a longer part is cut there (the cut shows in the report's number
 /// of steps).
 const MOST_STEPS: usize = 20_000;
 
-/// Once pieces move on their own a contact that has opened may close again, as a chip bounces between the striker and the body that follows. It is
-/// over when it has stayed open for so many times the time that it was expected to last, or when the striker leaves the body as a whole.
+/// Time that a contact must stay open to be over once pieces move on their own, in its expected durations: it may close again, as a chip bounces
+/// between the striker and the body that follows. It is over sooner if the striker leaves the body as a whole.
 const OPEN: f64 = 1.0;
 
 /// Mode i is significantly excited when its amplitude reaches this share of the largest.
 const SIGNIFICANT: f64 = 0.05;
 
-/// Periods of the lowest significantly excited mode that are looked at.
+/// Least length of the motion, in periods of the lowest significantly excited mode.
 const PERIODS: f64 = 1.5;
 
-/// Angle that the highest mode turns by in a tick, at most, once pieces move on their own and no contact pushes. The scheme is stable at any;
-/// measured (a bar that parts in halves): up to this one its stress is off by no more than 0.04 of its rms.
+/// Largest angle that the highest mode turns by in a tick, rad, once pieces move on their own and no contact pushes. The scheme is stable at any
+/// angle. Measured (a bar that parts in halves): up to this one its stress is off by no more than 0.04 of its rms.
 const TICK_OF_PIECES: f64 = 0.8;
 
-/// From a substep on the body gives way by so much more under a contact.
+/// Compliance that cracks add to the body under a contact, from a substep on.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Softening {
     pub(super) contact: usize,
     pub(super) substep: usize,
-    /// m/N.
+    /// Added compliance, m/N.
     pub(super) compliance: f64,
 }
 
-/// How far an integration has come.
+/// Progress of an integration.
 #[derive(Clone, Debug)]
 pub(super) struct Progress {
     pub(super) state: BankState,
     pub(super) contacts: Contacts,
     pub(super) flight: Flight,
-    /// Time steps, and the substeps of those with contacts.
+    /// Number of time steps so far, and of substeps in those with contacts.
     pub(super) step: usize,
     pub(super) substep: usize,
-    /// For how many substeps all contacts have been open.
+    /// Number of substeps for which all contacts have been open.
     open: usize,
-    /// When the contacts have parted: energy of the body, and of breakable strikers' oscillators, J.
+    /// Once the contacts have parted: energy of the body then, and of breakable strikers' oscillators, J.
     pub(super) at_parting: Option<[f64; 2]>,
-    /// After the time step in which they have.
+    /// Known after the time step in which the contacts have parted.
     pub(super) after: Option<After>,
 }
 
-/// What is known once the contacts have parted.
+/// Lengths of the parts of a motion, known once the contacts have parted.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct After {
-    /// Time steps until then.
+    /// Time steps until the contacts have parted.
     pub(super) contact_steps: usize,
     /// Time steps until the near field has gone.
     pub(super) near_steps: usize,
@@ -68,15 +68,15 @@ pub(super) struct After {
     pub(super) steps: usize,
 }
 
-/// The integration from where it stands on.
+/// An integration, from its present state on.
 pub(super) struct Run<'a> {
     pub(super) setup: Setup<'a>,
     pub(super) softer: &'a [Softening],
-    /// Whether nothing is looked at after the contact.
+    /// If true, the motion ends with the contacts.
     pub(super) instant: bool,
-    /// Substeps after which the contacts are over at the latest.
+    /// Substeps after which the contacts are cut off.
     pub(super) longest: usize,
-    /// Time steps that it goes on to, if the motion has so many.
+    /// Time step at which the integration pauses, if the motion has so many.
     pub(super) until: usize,
     pub(super) progress: &'a mut Progress,
     pub(super) record: &'a mut Record,
@@ -98,7 +98,7 @@ impl pulp::NullaryFnOnce for Run<'_> {
 }
 
 impl Run<'_> {
-    /// A time step in which contacts push.
+    /// Integrates a time step in which contacts push.
     #[inline(always)]
     fn push(&mut self) {
         let (setup, plan) = (self.setup, self.setup.plan);
@@ -143,7 +143,7 @@ impl Run<'_> {
             };
             let comes = flight.is_on() && contacts.approach(plan);
             if *open > 0 && comes && *open >= most_open {
-                // What was under the strikers has flown off: they meet what is beside it.
+                // The pieces under the strikers have flown off: the strikers meet what is beside these.
                 if contacts.go_on(setup, state, flight, *substep) {
                     *open = 0;
                 }
@@ -158,7 +158,7 @@ impl Run<'_> {
         }
         self.progress.step += 1;
         self.sample(true);
-        // What is cut off still falls to nothing within a substep.
+        // Forces that are cut off still fall to zero within a substep.
         if self.progress.at_parting.is_some() && self.progress.contacts.are_open() {
             self.progress.state.keep(plan.own);
             self.progress.flight.end_contacts();
@@ -166,7 +166,7 @@ impl Run<'_> {
         }
     }
 
-    /// How long the motion goes on.
+    /// Computes the lengths of the parts of the motion.
     fn after(&self) -> After {
         let plan = self.setup.plan;
         let (state, contact_steps) = (&self.progress.state, self.progress.step);
@@ -182,7 +182,7 @@ impl Run<'_> {
         let largest = (0..plan.modes).map(amplitude).fold(0.0, f64::max);
         let low = (0..plan.modes).find(|&i| amplitude(i) >= SIGNIFICANT * largest);
         let period = low.map_or(0.0, |i| TAU / plan.oscillators[i].0);
-        // After the blow its waves leave within half a period of the lowest of them.
+        // After the blow the waves of the near field leave within half a period of the lowest of them.
         let near = plan.sites.iter().filter_map(|s| s.near.as_ref());
         let leave = near.map(|n| PI / n.wall.lowest).fold(0.0, f64::max);
         let leave = ((leave / time_step).ceil() as usize).min(MOST_STEPS);
@@ -196,7 +196,7 @@ impl Run<'_> {
         }
     }
 
-    /// The free motion after the contacts.
+    /// Integrates the free motion after the contacts.
     #[inline(always)]
     fn ring(&mut self) {
         let (setup, plan) = (self.setup, self.setup.plan);
@@ -240,7 +240,7 @@ impl Run<'_> {
         }
     }
 
-    /// Takes down the time step that has ended.
+    /// Records the time step that has ended.
     #[inline(always)]
     fn sample(&mut self, near: bool) {
         let (setup, plan) = (self.setup, self.setup.plan);
@@ -270,7 +270,7 @@ impl Run<'_> {
     }
 }
 
-/// How many ticks a step of this length, s, has where pieces move on their own, and the oscillators through one.
+/// Number of ticks in a step of this length, s, once pieces move on their own, and the body's oscillators through a tick.
 fn ticks(plan: &Plan, length: f64) -> (usize, Bank) {
     let own = &plan.oscillators[..plan.own];
     let fastest = own[..plan.modes].last().map_or(0.0, |o| o.0);
@@ -279,7 +279,7 @@ fn ticks(plan: &Plan, length: f64) -> (usize, Bank) {
 }
 
 impl Progress {
-    /// At the beginning of a blow.
+    /// Progress at the beginning of a blow.
     pub(super) fn new(plan: &Plan) -> Self {
         Self {
             state: BankState::rest(plan.oscillators.len()),
@@ -293,19 +293,19 @@ impl Progress {
         }
     }
 
-    /// Whether the motion is over.
+    /// Returns true if the motion is over.
     pub(super) fn is_over(&self) -> bool {
         self.after.is_some_and(|after| self.step >= after.steps)
     }
 
-    /// Time steps so far that the near field has.
+    /// Number of time steps so far, up to the end of the near field.
     pub(super) fn near_steps(&self) -> usize {
         self.after
             .map_or(self.step, |after| after.near_steps.min(self.step))
     }
 }
 
-/// Energy of the body's vibration and pieces, without what follows the force, and the strain energy in it, J, with this q'.
+/// Energy of the body's vibration and pieces, without that of the residual compliance, and the strain energy in it, J, for this q'.
 #[inline(always)]
 fn of_body(setup: Setup<'_>, flight: &Flight, state: &BankState, elastic: &[f64]) -> [f64; 2] {
     let [whole, strain] = energies(state, 0..padded(setup.plan.own));
