@@ -1,33 +1,33 @@
-//! What a blow can do at most, known before it is integrated: what lets contacts be refused unseen.
+//! Limits of the impulse and the force of a contact, known before the blow is integrated: they allow contacts to be refused unseen.
 //!
-//! With B the inverse masses of the rigid bodies at the contacts and v the approach there, the motion of approach holds the energy
-//! `T = ½ vᵀ B⁻¹ v`, and nothing adds to it: springs, modes and wall oscillators, those of a striker that vibrates too, are at rest before it
-//! and only store, pass on and lose. A script does add to it, so that nothing is known where scripts push beside strikers. Friction does
-//! not move what the forces feel. So the limits ask for no modes, and hold with and without a striker's:
-//! - Hertz' spring of a contact never holds more: its force stays below that at which it holds T;
-//! - the impulses J of the contacts so far have left the approach v − B J, which holds at most T as well. So
-//!   `½ Jᵀ B J ≤ 4 T`, and so `J_k ≤ √(8 T (B⁻¹)_kk)`; where no contact's push helps another (all of B ≥ 0) `J_k ≤ √(8 T / B_kk)`, which
-//!   is less; of one contact 2 v / B.
+//! With B the inverse masses of the rigid bodies at the contacts and v the approach there, the motion of approach holds the energy `T = ½ vᵀ B⁻¹ v`,
+//! and nothing adds to it: springs, modes and wall oscillators, also those of a striker that vibrates, are at rest before the blow and only store,
+//! pass on and lose energy. A script does add to it, so no limit is known if scripts push beside strikers. The forces do not feel what friction
+//! moves. So the limits need no modes, and hold with and without those of a striker:
+//! - Hertz' spring of a contact never holds more than T: its force stays below that at which it holds T;
+//! - the impulses J of the contacts so far have left the approach v − B J, which holds at most T as well. So `½ Jᵀ B J ≤ 4 T`, and so
+//!   `J_k ≤ √(8 T (B⁻¹)_kk)`. If no contact's push helps another (all of B ≥ 0), `J_k ≤ √(8 T / B_kk)`, which is less; for a single contact this
+//!   is `2 v / B`.
 
 use super::Spring;
 use crate::asset::Asset;
 use crate::contact::{self, Contact};
 use crate::mesh::SurfacePoint;
 
-/// Most contacts whose energy is worked out.
+/// Most contacts for which limits are computed.
 const MOST: usize = 16;
 
-/// What any one contact of a blow can do at most.
+/// Limits of one contact of a blow.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Limits {
-    /// Impulse, N·s.
+    /// Largest impulse, N·s.
     pub(crate) impulse: f64,
-    /// Force, N.
+    /// Largest force, N.
     pub(crate) force: f64,
 }
 
 impl Limits {
-    /// Works out the limits of all contacts at their places on the surface, into `limits`; false where nothing is known.
+    /// Computes the limits of all contacts at their places on the surface, into `limits`. Returns false if none are known.
     pub(crate) fn of(
         asset: &Asset,
         contacts: &[Option<(&Contact, SurfacePoint)>],
@@ -85,7 +85,7 @@ impl Limits {
     }
 }
 
-/// Cholesky's factor of B, whose lower half is given; where B is singular, a little is added to it.
+/// Cholesky's factor of B, whose lower half is given; if B is singular, a little is added to it.
 fn factor(inverse_mass: &[f64; MOST * MOST], count: usize) -> [f64; MOST * MOST] {
     let mut factor = *inverse_mass;
     for k in 0..count {
@@ -105,7 +105,7 @@ fn factor(inverse_mass: &[f64; MOST * MOST], count: usize) -> [f64; MOST * MOST]
     factor
 }
 
-/// vᵀ B⁻¹ v of Cholesky's factor of B.
+/// vᵀ B⁻¹ v, from Cholesky's factor of B.
 fn square(factor: &[f64; MOST * MOST], v: &[f64]) -> f64 {
     let mut solved = [0.0; MOST];
     let mut square = 0.0;

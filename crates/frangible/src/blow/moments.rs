@@ -1,4 +1,4 @@
-//! Masses of groups of nodes, and what the whole body's rigid motions and its modes hold of the groups' motions.
+//! Masses of groups of nodes, and projections of the groups' motions on the rigid motions and the modes of the whole body.
 
 use glam::{DMat3, DVec3};
 
@@ -6,14 +6,14 @@ use super::groups::Groups;
 use super::parted::{SIX, outer};
 use crate::body::Body;
 
-/// What was found of a group before.
+/// Properties of a group that are known from an earlier parting.
 pub(super) struct Known<'a> {
     pub(super) mass: (f64, DMat3),
     pub(super) centre: DVec3,
     pub(super) held: &'a [f64],
 }
 
-/// Masses of a group.
+/// Mass, centre and inertia of a group.
 pub(super) struct Moments {
     pub(super) mass: f64,
     pub(super) centre: DVec3,
@@ -23,8 +23,8 @@ pub(super) struct Moments {
 }
 
 impl Moments {
-    /// The masses of all groups but the reference: each tetrahedron's is shared out among its nodes, and acts at its centroid. Also the
-    /// tetrahedra that have nodes of several groups.
+    /// Computes the masses of all groups but the reference: each tetrahedron's mass is shared out among its nodes, and acts at its centroid. Also
+    /// returns the tetrahedra that have nodes of several groups.
     pub(super) fn of(
         body: &Body,
         groups: &Groups,
@@ -67,7 +67,7 @@ impl Moments {
             let at = |tet: u32| centroids[tet as usize].as_dvec3();
             let mass: f64 = parts.iter().map(|p| p.1).sum();
             let centre = parts.iter().map(|&(tet, m)| m * at(tet)).sum::<DVec3>() / mass;
-            // A tetrahedron is no point.
+            // Each tetrahedron has an inertia about its own centroid.
             let mut inertia = DMat3::from_diagonal(DVec3::splat(0.05 * edge * edge * mass));
             for &(tet, m) in &parts {
                 let d = at(tet) - centre;
@@ -94,7 +94,7 @@ impl Moments {
         }
     }
 
-    /// p of its six motions: six rows of modes. `of_node`: nothing yet, and again when done, for each node of the analysis mesh.
+    /// p of its six motions: six rows of modes. `of_node`: zeros for each node of the analysis mesh, and again when done.
     pub(super) fn held(&self, body: &Body, modes: usize, of_node: &mut [(f64, DVec3)]) -> Vec<f64> {
         let asset = &*body.asset;
         let mut touched = Vec::new();
@@ -138,7 +138,7 @@ fn rows_of(list: &mut [f64], width: usize) -> [&mut [f64]; SIX] {
     std::array::from_fn(|_| rows.next().unwrap_or_default())
 }
 
-/// What a force pushes the mass-normalised rigid motions of a free body with; nothing of a held one.
+/// Push of a force on the mass-normalised rigid motions of a free body; zeros for a held one.
 pub(super) fn rigid_push(body: &Body, direction: DVec3, at: DVec3) -> [f64; SIX] {
     let mass = &body.asset.mass;
     if body.asset.is_supported() {
@@ -168,7 +168,7 @@ fn normalised(mass: f64, inertia: DMat3, linear: DVec3, angular: DVec3) -> [f64;
     [p.x, p.y, p.z, x, y, z]
 }
 
-/// P0: what the body's rigid motions hold of each unknown.
+/// P0: projection of each unknown on the rigid motions of the body.
 pub(super) fn rigid_parts(body: &Body, moments: &[Moments]) -> Vec<[f64; SIX]> {
     if body.asset.is_supported() {
         return vec![[0.0; SIX]; SIX * moments.len()];

@@ -3,9 +3,9 @@
 //! A piece P has six rigid motions r (three shifts, three turns about its centre) that are zero outside it. With Φ the modes of the whole body,
 //! the displacement is `u = Φ q' + R c`, c the six unknowns of each piece. Q = q' + P c are the modal amplitudes of the whole displacement,
 //!
-//! - `p_ki = ∫_P ρ φ_i · r_k` what the modes hold of a piece's motion, √kg,
-//! - `M = M_R − P0ᵀP0 − PᵀP` what they do not: the piece's own mass, less the part that the body's rigid motion and its modes hold,
-//! - `z_k = r_k(b) · n − Σ_i p_ki ξ_i − P0ᵀξ0` what a unit force at b does to a piece beyond what it does to the modes,
+//! - `p_ki = ∫_P ρ φ_i · r_k` the projection of a piece's motion on the modes, √kg,
+//! - `M = M_R − P0ᵀP0 − PᵀP` the rest of its mass: its own mass M_R, less the part that the body's rigid motion and its modes hold,
+//! - `z_k = r_k(b) · n − Σ_i p_ki ξ_i − P0ᵀξ0` the push of a unit force at b on a piece, less what acts through the rigid motion and modes,
 //!
 //! and, with damping α Λ + β,
 //!
@@ -27,21 +27,21 @@ use super::plan::Plan;
 use super::solve::{add_products, factor, is_positive, mirror, upper};
 use crate::body::Body;
 
-/// Shares of a piece's mass that are added to what the modes do not hold of it, the first that leaves no motion without mass: masses are sums
-/// over the tetrahedra, modes are not orthogonal in these.
+/// Shares of the pieces' own masses that are added to M; the first with which M is positive definite is used. Without them M may not be, since masses
+/// are sums over the tetrahedra, in which the modes are not orthogonal.
 const ADDED: [f64; 6] = [1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3];
 
-/// A striker goes on to what is beside a piece where its radius is so many times that of the hole: into such a hole it sinks by less than a fifth of the
-/// hole's radius before it touches the rim. A ball that sinks in deeper flies through, or meets pieces elsewhere.
+/// Least radius of a striker, in radii of the hole, with which it goes on to what is beside a piece: into such a hole it sinks by less than a fifth
+/// of the hole's radius before it touches the rim. A ball that sinks in deeper flies through, or meets pieces elsewhere.
 const BLUNT: f64 = 3.0;
 
 /// The six rigid motions of a piece.
 pub(super) const SIX: usize = 6;
 
-/// How a body moves from a time on, of which pieces have parted. Lists have an entry for each of the pieces' n unknowns.
+/// Motion of a body from a time on, once pieces have parted. Lists have an entry for each of the pieces' n unknowns.
 #[derive(Clone, Debug)]
 pub(super) struct Parted {
-    /// Time step and substep from which on it counts.
+    /// Time step and substep of the parting.
     pub(super) step: usize,
     pub(super) substep: usize,
     pub(super) groups: Groups,
@@ -56,13 +56,13 @@ pub(super) struct Parted {
     pub(super) mass: Vec<f64>,
     /// z of each contact, with its friction and without: on the group under it, and on the [one beside](Self::beside).
     pushes: [Vec<[Vec<f64>; 2]>; 2],
-    /// The group that each contact goes on to when the one under it has flown off: what that was part of.
+    /// The group that each contact goes on to when the one under it has flown off: the rest of what that one was part of.
     pub(super) beside: Vec<Option<u32>>,
     pub(super) corners: Vec<Corner>,
 }
 
 impl Parted {
-    /// The motion of these groups from a time step and a substep on.
+    /// Prepares the motion of these groups from a time step and a substep on.
     pub(super) fn new(
         body: &Body,
         plan: &Plan,
@@ -151,7 +151,7 @@ impl Parted {
         parted
     }
 
-    /// Radius of a disc that has the moment of inertia of a group about an axis, m; none of the reference.
+    /// Radius of a disc that has the mass of a group and its moment of inertia about an axis, m; 0 for the reference.
     fn radius_about(&self, group: u32, axis: DVec3) -> f64 {
         let own = (group as usize).checked_sub(1).map(|g| &self.masses[g]);
         own.map_or(0.0, |(mass, inertia)| {
@@ -159,7 +159,7 @@ impl Parted {
         })
     }
 
-    /// z of each contact, with its friction, 0, or without, 1: on the group under it, or on the one beside where it has gone on to that.
+    /// z of each contact, with its friction, 0, or without, 1: on the group under it, or on the one beside if it has gone on to that.
     pub(super) fn pushes<'a>(
         &'a self,
         friction: usize,
@@ -174,7 +174,7 @@ impl Parted {
         &self.pushes[1][contact][usize::from(gone_on[contact].is_some())]
     }
 
-    /// What is known of each of the later groups: of those that have the nodes of their parent.
+    /// Known properties of the later groups: of each that has exactly the nodes of its parent.
     fn as_they_were(&self, later: &Groups) -> Vec<Option<Known<'_>>> {
         let mut counts_before = vec![0_u32; self.groups.parents.len()];
         let mut counts = vec![[0_u32; 2]; later.parents.len()];
@@ -202,7 +202,7 @@ impl Parted {
         SIX * self.centres.len()
     }
 
-    /// p of an unknown, √kg: what each mode holds of its motion.
+    /// p of an unknown, √kg: the projection of its motion on each mode.
     pub(super) fn row(&self, unknown: usize) -> &[f64] {
         &self.held[unknown * self.modes..(unknown + 1) * self.modes]
     }
@@ -212,7 +212,7 @@ impl Parted {
         (0..self.unknowns()).map(|j| self.row(j))
     }
 
-    /// Velocity and angular velocity of each group but the reference that have these momenta, m/s and rad/s.
+    /// Velocity and angular velocity of each group but the reference for these momenta, m/s and rad/s.
     pub(super) fn velocities(&self, momenta: &[f64]) -> Vec<[DVec3; 2]> {
         let groups = momenta.chunks_exact(SIX).zip(&self.masses);
         let velocity = |(six, (mass, inertia)): (&[f64], &(f64, DMat3))| {
@@ -232,7 +232,7 @@ impl Parted {
         self.centres.iter().zip(drifts).map(motion).collect()
     }
 
-    /// Moves the nodes under the contacts that have gone on before a substep to the nearest nodes of the groups that they have gone on to.
+    /// Moves the nodes under contacts that have gone on before substep `until` to the nearest nodes of the groups that they have gone on to.
     pub(super) fn go_on(
         &self,
         body: &Body,
@@ -255,7 +255,7 @@ impl Parted {
         }
     }
 
-    /// The unknowns, or their rates, of these groups where those of the groups before are known: children start with their parent's motion.
+    /// Computes the unknowns of these groups, or their rates, from those of the groups before: children start with their parent's motion.
     pub(super) fn inherit(&self, before: Option<&Self>, unknowns: &[f64]) -> Vec<f64> {
         let mut own = vec![0.0; self.unknowns()];
         let Some(before) = before else { return own };
@@ -277,7 +277,7 @@ impl Parted {
     }
 }
 
-/// Adds some of the pieces' own mass until no motion is without any.
+/// Adds shares of the pieces' own masses until M is positive definite.
 fn add_until_positive(mass: &mut [f64], own: &[f64], n: usize) {
     let mut added = 0.0;
     for share in ADDED {
@@ -291,7 +291,7 @@ fn add_until_positive(mass: &mut [f64], own: &[f64], n: usize) {
     }
 }
 
-/// A unit force in this direction at this arm from a piece's centre, on its six motions.
+/// Push of a unit force in this direction, at this arm from a piece's centre, on the piece's six motions.
 pub(super) fn wrench(direction: DVec3, arm: DVec3) -> [f64; SIX] {
     let moment = arm.cross(direction);
     let (f, m) = (direction.to_array(), moment.to_array());
