@@ -1,5 +1,5 @@
-//! What a blow is integrated with: how each contact pushes and feels the modes, the wall oscillators about it, what follows the
-//! force, and how fine the steps are.
+//! Everything that a blow is integrated with: the contacts' pushes on the modes and the wall oscillators, what the contacts feel of these, the
+//! residual compliance, and the steps.
 
 use std::ops::Range;
 
@@ -16,24 +16,24 @@ use crate::contact::{self, Contact, Load, Receptance, Touch, modal_load};
 /// `blow`), and falls with the square of the substep.
 const SUBSTEPS_PER_HERTZ_TIME: f64 = 100.0;
 
-/// Hertz' time over the longest substep where both bodies vibrate: each integrates the blow for itself, and their impulses are to be one
-/// number. Measured: they differ by less than 1e-5 of it, and with a hundred substeps by 7e-5.
+/// Hertz' time over the longest substep where both bodies vibrate: each integrates the blow for itself, and both must find the same impulse.
+/// Measured: the impulses differ by less than 1e-5 of it, and with a hundred substeps by 7e-5.
 const SUBSTEPS_OF_PAIRS: f64 = 400.0;
 
-/// Rounds over all contacts until the energy of approach is known.
+/// Most rounds over all contacts to find the energy of approach.
 const APPROACH_ROUNDS: usize = 2000;
 
-/// A contact, made ready.
+/// A contact, prepared for the integration.
 #[derive(Clone, Debug)]
 pub(super) struct Site {
     pub(super) touch: Touch,
     pub(super) spring: Spring,
     /// A script's impulse, N·s, and duration, s, instead of a striker.
     pub(super) script: Option<[f64; 2]>,
-    /// What it is expected to last, s: Hertz' time, or what a script says.
+    /// Expected duration of the contact, s: Hertz' time, or the script's.
     pub(super) duration: f64,
     pub(super) near: Option<NearPlan>,
-    /// φ · (n + f) of every mode that follows the force, 1/√kg; zero for those that the near field serves.
+    /// φ · (n + f) of every mode that follows the force, 1/√kg; only the part along the wall for those that the near field stands for.
     pub(super) residual: Vec<f64>,
 }
 
@@ -56,9 +56,9 @@ pub(super) struct Plan {
     pub(super) strikers: Range<usize>,
     /// 1/ω of the modes, s.
     pub(super) periods: Vec<f64>,
-    /// How hard each contact pushes each oscillator, 1/√kg.
+    /// Push of each contact on each oscillator, 1/√kg.
     pub(super) drive: Vec<Vec<f64>>,
-    /// How each contact feels each oscillator's ω q, s/√kg.
+    /// Reduction of each contact's gap per ω q of each oscillator, s/√kg.
     pub(super) gap: Vec<Vec<f64>>,
     /// The oscillators that each contact pushes.
     pub(super) pushed: Vec<Vec<Range<usize>>>,
@@ -66,26 +66,26 @@ pub(super) struct Plan {
     pub(super) felt: Vec<Vec<Range<usize>>>,
     /// B of the rigid bodies, 1/kg: row-major.
     pub(super) inverse_mass: Vec<f64>,
-    /// c of what follows the force in both bodies of each contact, m/N: row-major.
+    /// c: residual compliance of both bodies of each contact, m/N: row-major.
     pub(super) compliance: Vec<f64>,
-    /// The body's own part of it, m/N.
+    /// Residual compliance of the body alone, m/N.
     pub(super) own_compliance: Vec<f64>,
-    /// Step at which stresses are looked at, s.
+    /// Time step at which stresses are evaluated, s.
     pub(super) time_step: f64,
-    /// Steps after the blow are longer by this factor.
+    /// Factor by which time steps are longer once the near field has gone.
     pub(super) coarser: f64,
-    /// Substeps in each.
+    /// Number of substeps in a time step.
     pub(super) substeps: usize,
     /// The oscillators through a substep.
     pub(super) fine: Bank,
-    /// The oscillators through a time step.
+    /// The body's oscillators through a time step.
     pub(super) step: Bank,
-    /// The oscillators through a time step after the blow.
+    /// The body's oscillators through a longer time step, once the near field has gone.
     pub(super) coarse: Bank,
 }
 
 impl Plan {
-    /// None where nothing pushes. `longest`: a substep is no longer than this, s.
+    /// Prepares the blow of these contacts; `None` if nothing pushes. `longest`: the longest substep, s.
     pub(super) fn new(
         body: &Body,
         contacts: &[Contact],
@@ -175,7 +175,7 @@ impl Plan {
             .map(|(gap, (w, _))| gap * w)
     }
 
-    /// The node of the fracture mesh next to each contact, of those that are the body's own.
+    /// For each contact, the nearest of the body's own nodes of the fracture tetrahedron under it.
     pub(super) fn nodes(&self, body: &Body) -> Vec<u32> {
         let asset = &*body.asset;
         let mesh = &asset.fracture;
@@ -194,7 +194,7 @@ impl Plan {
         self.sites.iter().map(|s| node(&s.touch)).collect()
     }
 
-    /// How the contacts push the oscillators.
+    /// Pushes of the contacts on the oscillators.
     pub(super) fn pushes(&self) -> Pushes<'_> {
         Pushes {
             drive: &self.drive,
@@ -204,7 +204,7 @@ impl Plan {
 
     /// The most energy that the contacts can take from the motion of approach, J: the largest `v · J − ½ Jᵀ B J` of impulses J ≥ 0.
     ///
-    /// All that the springs and the vibration hold at any time is of this kind, for the impulses so far.
+    /// The energy of springs and vibration at any time is at most this expression for the impulses so far.
     pub(super) fn approach_energy(&self) -> f64 {
         let count = self.sites.len();
         let speeds: Vec<f64> = (self.sites.iter())
@@ -234,7 +234,7 @@ impl Plan {
     }
 }
 
-/// B: what a unit impulse at contact l changes the approach at contact k by, 1/kg.
+/// B: change of the approach speed at contact k per unit impulse at contact l, 1/kg.
 fn inverse_masses(body: &Body, load: &Load) -> Vec<f64> {
     let asset = &*body.asset;
     let count = load.touches.len();
@@ -248,8 +248,8 @@ fn inverse_masses(body: &Body, load: &Load) -> Vec<f64> {
     matrix
 }
 
-/// Modal impulses of what stops each striker, and of scripts: which modes matter, and so the time step, must not hang on what an engine
-/// says of an impulse that is an outcome here.
+/// Modal impulses of the impulse that stops each striker, and of scripts. They decide which modes matter, and so the time step, which must not depend
+/// on an engine's impulse: the impulse is a result here.
 fn stopping(body: &Body, load: &Load, inverse_mass: &[f64]) -> Vec<f64> {
     let count = load.touches.len();
     let mut sums = vec![0.0; body.asset.modes.count()];
@@ -266,7 +266,7 @@ fn stopping(body: &Body, load: &Load, inverse_mass: &[f64]) -> Vec<f64> {
     sums
 }
 
-/// One contact, and what it feels of the body.
+/// Prepares one contact, and returns the receptance and the push there. Appends its wall oscillators to `oscillators`.
 fn site(
     body: &Body,
     touch: &Touch,

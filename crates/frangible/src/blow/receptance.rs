@@ -1,4 +1,4 @@
-//! What a contact feels of the body that it touches, and of one that strikes it.
+//! Receptance of the body that a contact touches, and of one that strikes it.
 
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
@@ -13,16 +13,16 @@ use crate::contact::{Contact, Receptance, Striker, Touch, WallReceptance, modal_
 use crate::error::InputError;
 use crate::near_field::{Bands, Spacing};
 
-/// Waves so much faster than Hertz' time follow the force: angular frequency times that time.
+/// Angular frequency times Hertz' time from which on waves follow the force.
 const FOLLOWING: f64 = 120.0;
 
-/// Up to here (angular frequency times Hertz' time) a blow makes waves ring, and wall oscillators are evenly spaced.
+/// Angular frequency times Hertz' time up to which a blow makes waves ring. Up to there wall oscillators are evenly spaced.
 const RINGING: f64 = 25.0;
 
-/// Wall oscillators are so close that their echo comes this many times later than the blow is expected to last.
+/// Time of the wall oscillators' echo over the expected duration of the blow, which sets their spacing.
 const ECHO: f64 = 1.3;
 
-/// How a contact pushes a body, with its friction.
+/// Push of a contact on a body, with its friction.
 #[derive(Clone, Debug)]
 pub(super) struct Push {
     /// φ · (n + f) of every mode, 1/√kg.
@@ -32,7 +32,7 @@ pub(super) struct Push {
 }
 
 impl Receptance {
-    /// What a contact feels of a body, and how it pushes it.
+    /// Receptance of a body under a contact, and the contact's push on it.
     pub(super) fn at(body: &Body, touch: &Touch, config: &FractureConfig) -> (Self, Push) {
         let asset = &*body.asset;
         let (contact, modes) = (&touch.contact, &asset.modes);
@@ -42,7 +42,7 @@ impl Receptance {
         let mut across = 0.0;
         let wall = (config.near_field).and_then(|theory| wall_at(body, touch, theory));
         let wall = wall.map(|(wall, inwards, served)| {
-            // Across the wall the near field goes on where the modes end; along it they serve.
+            // Across the wall the near field takes over where the modes end; along it the modes remain.
             let along = |v: Vec3| v - v.dot(inwards) * inwards;
             let (drive_along, shape_along) = (
                 touch.project(body, along(direction)),
@@ -72,12 +72,12 @@ impl Receptance {
 }
 
 impl Striker {
-    /// A breakable body that strikes another one, and vibrates under the same force: its material, its mass, curvature and modes where it is
-    /// touched. Both bodies' blows then find one force over time. `contact`: the contact as the striker feels it, in its own body frame, with the
-    /// impulse **on the striker**; of its own striker nothing is asked but the restitution of the pair.
+    /// Describes a breakable body that strikes another one and vibrates under the same force: its material, and its mass, curvature and modes at the
+    /// place of contact. The blows on both bodies then find the same force over time. `contact`: the contact as the striker feels it, in its own body
+    /// frame, with the impulse **on the striker**; of that contact's own striker only the restitution of the pair is used.
     ///
     /// # Errors
-    /// What [`Contact::validate`] and [`FractureConfig::validate`] refuse.
+    /// Returns the errors of [`Contact::validate`] and [`FractureConfig::validate`].
     pub fn flexible(
         body: &Body,
         contact: &Contact,
@@ -98,7 +98,7 @@ impl Striker {
 }
 
 impl WallReceptance {
-    /// The waves that a contact makes of the wall, and its radius, m, for a blow of two bodies of this mass together, kg.
+    /// Bands of waves that a contact makes in the wall, and its radius, m, for a blow with this effective mass of both bodies, kg.
     pub(super) fn bands(&self, site: &Site, mass: f64) -> (Bands, f64) {
         let wall = &self.material;
         let speed = f64::from(site.touch.contact.approach_speed);
@@ -110,7 +110,7 @@ impl WallReceptance {
                 site.spring.peak_force(mass, speed, wall.dashpot()),
             ),
         };
-        // Never wider than the wall's own way to its edge, nor a point.
+        // Neither wider than the wall allows, nor a point.
         let radius = (site.spring.contact_radius(peak)).clamp(1e-3 * wall.thickness, self.widest);
         let spacing = Spacing {
             width: TAU / (ECHO * duration),

@@ -1,4 +1,4 @@
-//! What the integration of a blow takes down beside the motion, and what is told of it.
+//! Record of the integration of a blow beside the motion, and the contact reports and complement made from it.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use crate::motion::{Complement, Residual};
 use crate::near_field::NearField;
 use crate::stress::Shape;
 
-/// What an integration has found so far, beside the motion.
+/// Results of an integration so far, beside the motion.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Record {
     /// Forces after each substep, N.
@@ -18,12 +18,12 @@ pub(super) struct Record {
     pub(super) swing: Vec<f32>,
     /// Energy of the body's vibration and pieces, and the strain energy in it, at the end of each time step, J.
     pub(super) energies: Vec<[f64; 2]>,
-    /// Room for q'.
+    /// Workspace for q'.
     pub(super) elastic: Vec<f64>,
 }
 
 impl Record {
-    /// Forgets what was found after an earlier state.
+    /// Forgets the results after an earlier state.
     pub(super) fn forget_after(&mut self, progress: &Progress, plan: &Plan) {
         self.forces.truncate(progress.substep * plan.sites.len());
         let waves = plan.own - plan.modes;
@@ -43,7 +43,7 @@ impl Record {
         ends.step_by(plan.substeps).map(|force| force as f32)
     }
 
-    /// What became of a contact whose striker leaves at this speed, m/s.
+    /// Report of a contact whose striker leaves at this speed, m/s.
     pub(super) fn report(
         &self,
         plan: &Plan,
@@ -78,8 +78,8 @@ impl Record {
         }
     }
 
-    /// What the modes leave out of the motion so far. `shapes`: those that follow each contact's force; `near_steps`: time steps that the near
-    /// field has so far.
+    /// Parts of the motion so far that the modes leave out. `shapes`: those that follow each contact's force; `near_steps`: number of time steps of
+    /// the near field so far.
     pub(super) fn complement(
         &self,
         plan: &Plan,

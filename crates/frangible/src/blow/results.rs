@@ -6,7 +6,7 @@ use super::Blow;
 use crate::contact::{ContactReport, Pulse};
 
 impl Blow {
-    /// What the contacts push each mode with, as given impulses would, N·s/√kg.
+    /// Modal impulses of the contacts, N·s/√kg, as prescribed impulses have them.
     pub(crate) fn modal_impulse(&self) -> Vec<f64> {
         let mut sums = vec![0.0; self.plan.modes];
         for (k, drive) in self.plan.drive.iter().enumerate() {
@@ -19,7 +19,7 @@ impl Blow {
         sums
     }
 
-    /// Its time steps, and a half-sine of its length.
+    /// Time steps of the blow, and a half-sine of its duration.
     pub(crate) fn pulse(&self) -> Pulse {
         let duration = self.duration().max(self.substep());
         Pulse {
@@ -32,20 +32,20 @@ impl Blow {
         }
     }
 
-    /// How long the contacts push, s.
+    /// Duration of the contacts, s: time until the last force ends.
     pub(crate) fn duration(&self) -> f64 {
         let count = self.plan.sites.len();
         let last = self.record.forces.iter().rposition(|&f| f > 0.0);
         last.map_or(0.0, |i| (i / count + 1) as f64 * self.substep())
     }
 
-    /// What the contacts were expected to last, the shortest, s: Hertz' time, or what a script says.
+    /// Shortest expected duration of the contacts, s: Hertz' time, or a script's duration.
     pub(crate) fn expected_duration(&self) -> f64 {
         let times = self.plan.sites.iter().map(|s| s.duration);
         times.fold(f64::INFINITY, f64::min)
     }
 
-    /// What became of each contact.
+    /// Returns the report of each contact.
     #[must_use]
     pub fn reports(&self) -> Vec<ContactReport> {
         let speeds = self.progress.contacts.speeds.iter().enumerate();
@@ -53,9 +53,9 @@ impl Blow {
         speeds.map(of).collect()
     }
 
-    /// Energy of all modes and wall oscillators when the contact parts, and what the motion of approach has lost, J: of one contact
-    /// without damping or friction, the same but for the error of the substeps, [what its striker takes](Self::strikers_energy)
-    /// and [what crushing takes](ContactReport::crushing_energy).
+    /// Energy of all modes and wall oscillators when the contact parts, and energy that the motion of approach has lost, J. For one contact without
+    /// damping or friction, they differ only by the error of the substeps, [the energy of its striker](Self::strikers_energy) and [the energy of
+    /// crushing](ContactReport::crushing_energy).
     #[must_use]
     pub fn energies(&self) -> [f64; 2] {
         let mass = 1.0 / self.plan.inverse_mass[0];
