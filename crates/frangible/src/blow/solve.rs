@@ -1,7 +1,7 @@
 //! Symmetric systems of a few dozen unknowns, row-major.
 
-/// Cholesky's factor of a matrix, in its lower half, with the reciprocals of its pivots. Where the matrix is not positive one of these is zero,
-/// and [`is_positive`] says so.
+/// Cholesky's factor of a matrix, in its lower half, with the reciprocals of its pivots. If the matrix is not positive definite, one of these is
+/// zero, as [`is_positive`] tells.
 #[inline(always)]
 pub(super) fn factor(matrix: Vec<f64>, n: usize) -> Vec<f64> {
     let mut factor = matrix;
@@ -12,7 +12,7 @@ pub(super) fn factor(matrix: Vec<f64>, n: usize) -> Vec<f64> {
             row[l] = (row[l] - dot(&row[..l], &other[..l])) * other[l];
         }
         let sum = dot(&row[..k], &row[..k]);
-        // What is left of the digits of a pivot that all but vanishes is none of the matrix.
+        // The last digits of a pivot that all but vanishes are rounding errors.
         let left = row[k] - sum;
         row[k] = if left > 1e-10 * row[k] {
             left.sqrt().recip()
@@ -38,13 +38,13 @@ pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     sums.iter().sum::<f64>() + rest
 }
 
-/// Adds so many times b to a.
+/// Adds `times` × b to a.
 #[inline(always)]
 pub(super) fn add(a: &mut [f64], times: f64, b: &[f64]) {
     a.iter_mut().zip(b).for_each(|(a, b)| *a += times * b);
 }
 
-/// Rows that are taken at once; the number of rows is a multiple.
+/// Rows that are multiplied at once; the number of rows is a multiple.
 const ROWS: usize = 6;
 
 /// Adds the products of a matrix's rows with x to a list.
@@ -75,7 +75,7 @@ pub(super) fn add_products(sums: &mut [f64], rows: &[f64], x: &[f64]) {
     }
 }
 
-/// Adds the rows of a matrix to a list, so many times each.
+/// Adds the rows of a matrix to a list, each times its own factor.
 #[inline(always)]
 pub(super) fn add_rows(sum: &mut [f64], times: &[f64], rows: &[f64]) {
     let width = sum.len();
@@ -90,7 +90,7 @@ pub(super) fn add_rows(sum: &mut [f64], times: &[f64], rows: &[f64]) {
     }
 }
 
-/// Inverse of the matrix of this factor.
+/// Inverse of the matrix of this Cholesky factor.
 pub(super) fn inverse(factor: &[f64], n: usize) -> Vec<f64> {
     let mut inverse = vec![0.0; n * n];
     for (k, column) in inverse.chunks_exact_mut(n.max(1)).enumerate() {
@@ -100,12 +100,12 @@ pub(super) fn inverse(factor: &[f64], n: usize) -> Vec<f64> {
     inverse
 }
 
-/// Whether the matrix of this factor is positive.
+/// Returns true if the matrix of this factor is positive definite.
 pub(super) fn is_positive(factor: &[f64], n: usize) -> bool {
     (0..n).all(|k| factor[k * n + k] > 0.0)
 }
 
-/// Solves with the matrix of this factor in place.
+/// Solves a system with the matrix of this factor, in place.
 #[inline(always)]
 pub(super) fn solve(factor: &[f64], x: &mut [f64]) {
     let n = x.len();
@@ -123,7 +123,7 @@ pub(super) fn solve(factor: &[f64], x: &mut [f64]) {
     }
 }
 
-/// End of the part of a symmetric matrix's row that is found: the rest [mirrors](mirror) it.
+/// End of the part of a symmetric matrix's row that is computed: [`mirror`] fills in the rest.
 pub(super) fn upper(row: usize) -> usize {
     ROWS * (row / ROWS + 1)
 }

@@ -1,28 +1,28 @@
-//! What solves a tick of the pieces that move on their own: see `flight.rs` for the equation.
+//! Solver of a tick of the pieces that move on their own: see `flight.rs` for the equation.
 
 use super::bank::Bank;
 use super::parted::Parted;
 use super::plan::Plan;
 use super::solve::{add, add_products, add_rows, dot, factor, inverse, mirror, solve, upper};
 
-/// What solves a tick of one length. Corners that press are taken in by a system of their own, of as many unknowns as there are of them: with C the
-/// matrix without corners, the unknowns are `C⁻¹b + Σ y μ`, `y = C⁻¹g`, and `(1/2κ + gᵀy) μ = −e/2` gives the corners' forces μ, e the gaps at the
-/// end of the tick if none pressed (Woodbury).
+/// Solver of ticks of one length. The corners that press form a system of their own, with one unknown each: with C the matrix without corners, the
+/// unknowns of the pieces are `C⁻¹b + Σ y μ`, `y = C⁻¹g`, and `(1/2κ + gᵀy) μ = −e/2` gives the corners' forces μ, e the gaps at the end of the tick
+/// if none pressed (Woodbury).
 #[derive(Clone, Debug, Default)]
 pub(super) struct Solver {
     pub(super) tick: f64,
-    /// W less what the oscillators' answer within the tick takes from it.
+    /// W, reduced by the oscillators' response within the tick.
     pub(super) stiffness: Vec<f64>,
     /// Inverse of the matrix without corners.
     inverse: Vec<f64>,
     /// Number of the first mode among the oscillators.
     first: usize,
-    /// What each contact's force does when it grows by a newton, without corners and with those that press.
+    /// Response to a newton of growth of each contact's force, without corners and with those that press.
     free: Vec<Answer>,
     pub(super) answers: Vec<Answer>,
-    /// What that moves each contact by through the pieces, m/N: row-major.
+    /// Displacement of each contact through the pieces per newton of growth of each force, m/N: row-major.
     pub(super) give: Vec<f64>,
-    /// What a newton at each corner does, once it has pressed.
+    /// Response to a newton at each corner, known once it has pressed.
     corners: Vec<Option<Answer>>,
     /// The corners that press, the factor of their system, and their forces, N.
     pressing: Vec<usize>,
@@ -30,7 +30,7 @@ pub(super) struct Solver {
     forces: Vec<f64>,
 }
 
-/// What a force does within a tick.
+/// Response to a force within a tick.
 #[derive(Clone, Debug)]
 pub(super) struct Answer {
     /// Change of c̄.
@@ -40,7 +40,7 @@ pub(super) struct Answer {
 }
 
 impl Answer {
-    /// The answer to a push of the pieces, with this inverse of the matrix.
+    /// Response to a push on the pieces, with this inverse of the matrix.
     #[inline(always)]
     fn to(push: &[f64], inverse: &[f64], parted: &Parted, plan: &Plan, tick: f64) -> Self {
         let mut middle = vec![0.0; push.len()];
@@ -56,7 +56,7 @@ impl Answer {
         Self { middle, force }
     }
 
-    /// Adds so many times another one.
+    /// Adds `times` × another response.
     fn add(&mut self, times: f64, other: &Self) {
         add(&mut self.middle, times, &other.middle);
         add(&mut self.force, times, &other.force);
@@ -64,7 +64,7 @@ impl Answer {
 }
 
 impl Solver {
-    /// Without corners yet. `pushes`: with friction, 0, or without, 1; `first`: number of the first mode among the oscillators.
+    /// Solver without corners yet. `pushes`: 0 with friction, 1 without; `first`: number of the first mode among the oscillators.
     pub(super) fn new(
         parted: &Parted,
         plan: &Plan,
@@ -75,7 +75,7 @@ impl Solver {
     ) -> Self {
         let n = parted.unknowns();
         let [alpha, beta] = [plan.rayleigh[0] / tick, plan.rayleigh[1]];
-        // λ less what the oscillator's own answer to the force takes from it.
+        // λ, reduced by the oscillator's own response to the force.
         let held = bank.held_by(0..plan.modes);
         let springs = plan.oscillators.iter().zip(held).map(|((w, _), held)| {
             let taken = (0.5 + alpha) * w * held;
@@ -127,7 +127,7 @@ impl Solver {
         add_products(middle, &self.inverse, given);
     }
 
-    /// Lets these corners press from now on; what contacts do is [to be found anew](Self::answer).
+    /// Lets these corners press from now on; the responses to the contacts must then be [computed anew](Self::answer).
     #[inline(always)]
     pub(super) fn press(&mut self, parted: &Parted, plan: &Plan, press: &[bool]) {
         self.pressing.clear();
@@ -156,13 +156,13 @@ impl Solver {
         self.held = factor(std::mem::take(&mut self.held), count);
     }
 
-    /// Whether any corner presses.
+    /// Returns true if any corner presses.
     #[inline(always)]
     pub(super) fn is_pressed(&self) -> bool {
         !self.pressing.is_empty()
     }
 
-    /// Adds to c̄ what the corners that press do, with these gaps of all corners at the end of the tick if none pressed, m.
+    /// Adds to c̄ the effect of the corners that press. `gaps`: gaps of all corners at the end of the tick if none pressed, m.
     #[inline(always)]
     pub(super) fn hold(&mut self, gaps: &[f64], middle: &mut [f64]) {
         self.forces.clear();
@@ -176,7 +176,7 @@ impl Solver {
         }
     }
 
-    /// Finds what the contacts' forces do when they grow, with the corners that press now.
+    /// Computes the responses to growth of the contacts' forces, with the corners that press now.
     #[inline(always)]
     pub(super) fn answer(
         &mut self,

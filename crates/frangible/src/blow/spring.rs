@@ -1,9 +1,9 @@
 //! The spring between two bodies that touch at a point: Hertz' until the weaker body is crushed.
 //!
-//! Hertz' pressure is largest in the middle of the disc that touches. From the force on at which it reaches the pressure p that the weaker
-//! body can bear there, that body is crushed, or flows, and no place is pressed harder: the force grows by `π p R` per dent, as the disc does
-//! (C. Thornton, J. Appl. Mech. 64 (1997) 383). What is crushed does not come back. When the force falls, the bodies part along Hertz' spring of the dent
-//! that was made, which is flatter than what made it and holds less energy. The difference is what crushing has taken.
+//! Hertz' pressure is largest in the middle of the disc that touches. Once it reaches the pressure p that the weaker body can bear there, that body
+//! is crushed, or flows, and no place is pressed harder: the force grows by `π p R` per dent, as the disc does (C. Thornton, J. Appl. Mech. 64 (1997)
+//! 383). A crushed place does not come back. When the force falls, the bodies part along Hertz' spring of the dent that was made, which is flatter
+//! than what made it and holds less energy. Crushing has taken the difference.
 
 use std::f64::consts::PI;
 
@@ -17,16 +17,16 @@ pub(crate) struct Spring {
     pub(crate) stiffness: f64,
     /// Radius R of the two curvatures together, m.
     pub(crate) radius: f64,
-    /// The pressure p that both bodies bear, Pa; infinite where none is ever crushed.
+    /// Largest pressure p that both bodies bear, Pa; infinite where none is ever crushed.
     pub(crate) crushing_pressure: f64,
-    /// Force from which on one of them is crushed, N.
+    /// Force at which crushing begins, N.
     crushing_force: f64,
     /// Growth of the force with the dent from there on, π p R, N/m.
     crushing_stiffness: f64,
 }
 
 impl Spring {
-    /// Between two bodies with together this modulus E*, Pa, and radius, m, one of which is crushed at this pressure, Pa; it may be infinite.
+    /// Spring between two bodies of joint modulus E*, Pa, and joint radius, m, one of which is crushed at this pressure, Pa; it may be infinite.
     #[must_use]
     pub(crate) fn crushed_at(pressure: f64, modulus: f64, radius: f64) -> Self {
         // The pressure in the middle is 2 E* √(δ/R) / π.
@@ -40,7 +40,7 @@ impl Spring {
         }
     }
 
-    /// At a contact of this asset, whose surface has this radius of curvature there, m.
+    /// Spring at a contact of this asset, whose surface has this radius of curvature there, m.
     pub(crate) fn at(asset: &Asset, contact: &Contact, curvature_radius: f64) -> Self {
         let striker = f64::from(contact.striker.contact_modulus);
         let modulus = 1.0 / (1.0 / asset.material.contact_modulus() + 1.0 / striker);
@@ -53,12 +53,12 @@ impl Spring {
         )
     }
 
-    /// Dent δ of Hertz' spring under a force, N, m.
+    /// Dent δ of Hertz' spring, m, under a force, N.
     fn elastic_dent(&self, force: f64) -> f64 {
         libm::cbrt(force.max(0.0) / self.stiffness).powi(2)
     }
 
-    /// Dent δ when a force is there for the first time, N, m.
+    /// Dent δ, m, when a force, N, is reached for the first time.
     #[must_use]
     pub(crate) fn dent(&self, force: f64) -> f64 {
         if force <= self.crushing_force {
@@ -68,7 +68,7 @@ impl Spring {
             + (force - self.crushing_force) / self.crushing_stiffness
     }
 
-    /// The force that makes a dent δ, m, for the first time, N.
+    /// Force, N, that makes a dent δ, m, for the first time.
     fn force_of_dent(&self, dent: f64) -> f64 {
         let elastic = self.stiffness * dent.max(0.0) * dent.max(0.0).sqrt();
         if elastic <= self.crushing_force {
@@ -78,13 +78,13 @@ impl Spring {
         self.crushing_force + self.crushing_stiffness * more
     }
 
-    /// Radius of the disc that touches under a force that is there for the first time, N, m: √(R δ).
+    /// Radius of the disc that touches, m, when a force, N, is reached for the first time: √(R δ).
     #[must_use]
     pub(crate) fn contact_radius(&self, force: f64) -> f64 {
         (self.radius * self.dent(force)).sqrt()
     }
 
-    /// Energy that it takes to press with a force for the first time, N, J: ∫ F dδ.
+    /// Energy, J, that pressing to a force, N, for the first time takes: ∫ F dδ.
     fn energy(&self, force: f64) -> f64 {
         if force <= self.crushing_force {
             return 0.4 * force * self.elastic_dent(force);
@@ -93,7 +93,7 @@ impl Spring {
             + 0.5 * (force.powi(2) - self.crushing_force.powi(2)) / self.crushing_stiffness
     }
 
-    /// Force at which this energy, J, has been brought to press for the first time, N.
+    /// Force, N, up to which this energy, J, presses for the first time.
     #[must_use]
     pub(crate) fn force_of_energy(&self, energy: f64) -> f64 {
         let elastic = libm::pow(2.5 * energy * libm::cbrt(self.stiffness).powi(2), 0.6);
@@ -104,7 +104,7 @@ impl Spring {
         (self.crushing_force.powi(2) + 2.0 * self.crushing_stiffness * more.max(0.0)).sqrt()
     }
 
-    /// Energy that crushing has taken when the largest force, N, is over, J.
+    /// Energy lost to crushing, J, once the largest force, N, is over.
     #[must_use]
     pub(crate) fn crushing_energy(&self, largest: f64) -> f64 {
         if largest <= self.crushing_force {
@@ -114,8 +114,8 @@ impl Spring {
         (self.energy(largest) - 0.4 * largest * (self.dent(largest) - left)).max(0.0)
     }
 
-    /// What the largest force, N, has made of a spring that was crushed: the dent that is left, m, and K of Hertz' spring in it, N/m^1.5. Its
-    /// disc is that of the largest force, which it bears.
+    /// Dent that is left, m, and K of Hertz' spring in it, N/m^1.5, after the largest force, N, has crushed a body. This spring bears the largest
+    /// force on the same disc.
     fn of_dented(&self, largest: f64) -> (f64, f64) {
         let dent = self.dent(largest);
         let disc = self.radius * dent;
@@ -124,9 +124,8 @@ impl Spring {
         (dent - disc / radius, 4.0 / 3.0 * modulus * radius.sqrt())
     }
 
-    /// The force F ≥ 0 at which the dent and `compliance F` fill the gap, N: gap, m; compliance, m/N; `largest`: the largest force so far, N. Zero
-    /// where the gap is open. `root`: the square root of the dent, m^½, where the search begins, and then what was found; zero where nothing
-    /// is known.
+    /// Force F ≥ 0, N, at which the dent and `compliance F` fill the gap; zero if the gap is open. `gap`: m; `compliance`: m/N; `largest`: the
+    /// largest force so far, N; `root`: the square root of the dent, m^½, from which the search begins, zero if unknown; then the one found.
     #[must_use]
     pub(crate) fn force(&self, gap: f64, compliance: f64, largest: f64, root: &mut f64) -> f64 {
         let was_crushed = largest > self.crushing_force;
@@ -145,8 +144,8 @@ impl Spring {
         along / (1.0 / self.crushing_stiffness + compliance)
     }
 
-    /// How much longer crushing makes the blow of a mass on a rigid wall, kg, m/s, than Hertz' spring alone would: twice the time to the deepest
-    /// dent over Hertz' time. What was crushed parts faster than it met, so this is an upper bound; 1 where nothing is crushed.
+    /// Factor by which crushing lengthens the blow of a mass, kg, at a speed, m/s, on a rigid wall: ratio of the times to the deepest dent with
+    /// crushing and with Hertz' spring alone. Crushed bodies part faster than they met, so it is an upper bound; 1 if nothing is crushed.
     #[must_use]
     pub(crate) fn stretch(&self, mass: f64, speed: f64) -> f64 {
         let energy = 0.5 * mass * speed * speed;
@@ -161,8 +160,8 @@ impl Spring {
         time(self) / time(&elastic)
     }
 
-    /// The blow of a mass on this spring behind a dashpot (Zener 1941), kg, m/s, N·s/m: its peak force, N. An infinite
-    /// dashpot is a rigid wall.
+    /// Peak force, N, of the blow of a mass, kg, at a speed, m/s, on this spring behind a dashpot, N·s/m (Zener 1941). An infinite dashpot is a rigid
+    /// wall.
     #[must_use]
     pub(crate) fn peak_force(&self, mass: f64, speed: f64, dashpot: f64) -> f64 {
         if !dashpot.is_finite() {
@@ -171,7 +170,7 @@ impl Spring {
         self.loading(mass, speed, dashpot).peak
     }
 
-    /// The first half of such a blow, step by step.
+    /// Integrates the first half of such a blow, until its force is largest.
     fn loading(&self, mass: f64, speed: f64, dashpot: f64) -> Loading {
         let rigid = self.force_of_energy(0.5 * mass * speed * speed);
         // A two-hundredth of the time to the deepest dent on a rigid wall is fine for a per cent.
@@ -195,7 +194,7 @@ impl Spring {
     }
 }
 
-/// What a blow does until its force is largest.
+/// First half of a blow, until its force is largest.
 #[derive(Clone, Copy, Debug)]
 struct Loading {
     /// Largest force, N.

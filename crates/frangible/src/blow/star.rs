@@ -1,9 +1,9 @@
-//! A star of cracks under a contact: how much less the wall carries.
+//! A star of cracks under a contact, and the compliance that it adds to the wall.
 //!
-//! n arms of length L leave n cantilevers that are held at the distance L and pushed at their tips. A tip of angle 2π/n bends to a
-//! constant curvature, as its width grows with the distance as the moment does, so that together they give way by
-//! `L² / 4 n D tan(π/n)` per force. The whole wall within L gave way by `L² / 16 π D` (a clamped disc), which the modes and wall
-//! oscillators have already: the difference is what the star adds. Two arms are one crack, along which the wall still bends as one.
+//! n arms of length L leave n cantilevers that are clamped at the distance L and pushed at their tips. A tip of angle 2π/n bends to a constant
+//! curvature, as its width grows with the distance like the moment. Together they have the compliance `L² / 4 n D tan(π/n)`. The whole wall within L
+//! had `L² / 16 π D` (a clamped disc), which the modes and wall oscillators have already: the star adds the difference. Two arms are one crack, along
+//! which the wall still bends as one.
 
 use std::f32::consts::TAU;
 use std::f64::consts::PI;
@@ -15,10 +15,10 @@ use crate::stress::perpendicular_axes;
 /// Fewest arms of a star.
 const FEWEST: usize = 3;
 
-/// Arms are looked for from this many thicknesses of the wall on: nearer, every crack lies in all directions.
+/// Least distance of arms from the contact, in thicknesses of the wall: nearer, every crack lies in all directions.
 const FROM: f64 = 2.0;
 
-/// Angle between the directions of different arms, rad.
+/// Least angle between the directions of different arms, rad.
 const APART: f32 = 0.4;
 
 /// Cantilevers between the arms of a star of cracks under a contact.
@@ -26,12 +26,12 @@ const APART: f32 = 0.4;
 pub(super) struct Star {
     /// Length that at least three arms reach, m.
     length: f64,
-    /// How many arms reach it, nearly.
+    /// Number of arms longer than 0.8 of it.
     arms: usize,
 }
 
 impl Star {
-    /// The star that cracks have cut about a contact; none with fewer than three arms.
+    /// Finds the star that cracks have cut about a contact; none with fewer than three arms.
     pub(super) fn of(system: &CrackSystem, place: &NearPlace, thickness: f64) -> Option<Self> {
         let (u, v) = perpendicular_axes(place.inwards);
         let nearest = (FROM * thickness) as f32;
@@ -59,7 +59,7 @@ impl Star {
             }
             previous = angle;
         }
-        // The last arm may be the first one's other side.
+        // The last arm may be the first one, across the angle ±π.
         if lengths.len() > 1
             && let (Some(first), Some(last)) = (places.first(), places.last())
             && first.0 + TAU - last.0 < APART
@@ -75,7 +75,7 @@ impl Star {
         })
     }
 
-    /// What it adds to the give of the wall, m/N, where the wall has this bending stiffness, N·m.
+    /// Compliance that the star adds to the wall, m/N, for this bending stiffness, N·m.
     pub(super) fn compliance(&self, bending_stiffness: f64) -> f64 {
         let Self { length, arms } = *self;
         let n = arms as f64;

@@ -1,4 +1,4 @@
-//! The near field of a contact on a wall: where it takes over from the modes, which waves it is made of, and how far it reaches.
+//! The near field of a contact on a wall: its start beyond the modes, its waves and its reach.
 
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -14,8 +14,8 @@ use crate::near_field::{Bands, NearField, NearPlace, PlateTheory, WallMaterial};
 /// Least distance to the wall's edge for a near field, times its lowest wave number.
 const LEAST_EDGE: f64 = 1.0;
 
-/// The frequency at which the wall oscillators take over, from the modes' own motion at the contact, over that from their
-/// frequencies is held between this and its inverse: beyond it something else than a plain wall is there.
+/// Least ratio of two estimates of the frequency at which the wall oscillators take over: from the modes' own motion at the contact, over that from
+/// their frequencies. The ratio is held between this and its inverse: beyond, the place is no plain wall.
 const LEAST_MATCH: f64 = 0.8;
 
 /// Cosine between the force and the wall's normal below which a blow falls along the wall.
@@ -35,7 +35,7 @@ pub(super) struct NearPlan {
     pub(super) contact_radius: f64,
 }
 
-/// The wall behind a contact, its unit normal inwards, and the number of the first mode that it serves instead of.
+/// The wall behind a contact, its unit normal inwards, and the number of the first mode that it stands for.
 pub(super) fn wall_at(
     body: &Body,
     touch: &Touch,
@@ -59,7 +59,7 @@ pub(super) fn wall_at(
     Some((wall, inwards, first))
 }
 
-/// Where the near field of a contact on a wall is.
+/// Place and reach of the near field of a contact on a wall.
 pub(super) fn place(body: &Body, touch: &Touch, wall: &WallReceptance) -> Option<NearPlace> {
     let point = touch.contact.point + body.origin().as_vec3();
     let start = wall.material.wave_number(wall.lowest);
@@ -70,7 +70,7 @@ pub(super) fn place(body: &Body, touch: &Touch, wall: &WallReceptance) -> Option
     })
 }
 
-/// A steady force on a wall: where its near field is, and what of.
+/// Near field of a steady force on a wall: its place, wall and force.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SteadyNear {
     place: NearPlace,
@@ -82,7 +82,7 @@ pub(crate) struct SteadyNear {
 }
 
 impl SteadyNear {
-    /// The near field of a force, N, on a place of the surface; all modes of the body serve beside it.
+    /// Near field of a force, N, at a place of the surface, beside all modes of the body; none if the force does not press on a wall.
     pub(crate) fn of(
         body: &Body,
         at: &SurfacePoint,
@@ -114,7 +114,7 @@ impl SteadyNear {
         })
     }
 
-    /// No principal stress of a steady force on a triangle of the surface exceeds this per newton, Pa/N.
+    /// Upper bound of the principal stress of a steady force on a triangle of the surface, per newton, Pa/N.
     pub(crate) fn most_per_newton(body: &Body, triangle: u32) -> Option<f32> {
         let asset = &*body.asset;
         let surface = asset.surface.walls.at(triangle)?;
@@ -123,19 +123,19 @@ impl SteadyNear {
             let (_, lowest) = first_wave(asset, &wall, surface.margin, asset.modes.count())?;
             Some(wall.most_stress(wall.wave_number(lowest)) as f32)
         };
-        // It is kept for all questions about the body, whichever theory they ask with.
+        // The bound is kept for the body, so it must hold for either theory.
         of(PlateTheory::Kirchhoff)
             .into_iter()
             .chain(of(PlateTheory::Layer))
             .reduce(f32::max)
     }
 
-    /// No principal stress of it exceeds this, Pa.
+    /// Upper bound of its principal stress, Pa.
     pub(crate) fn bound(&self) -> f32 {
         (f64::from(self.across) * self.wall.most_stress(self.first)) as f32
     }
 
-    /// Its stress.
+    /// Its stress field.
     pub(crate) fn field(&self) -> NearField {
         NearField::steady(self.place, &self.wall, self.first, self.across)
     }
@@ -148,7 +148,7 @@ fn inwards(asset: &Asset, triangle: u32, weights: [f32; 3]) -> Option<Vec3> {
     mixed.try_normalize().map(|n| -n)
 }
 
-/// Whether a contact on this triangle of the surface may have a near field.
+/// Returns true if a contact on this triangle of the surface may have a near field.
 pub(crate) fn has_near_field(asset: &Asset, triangle: u32, theory: PlateTheory) -> bool {
     asset.surface.walls.at(triangle).is_some_and(|surface| {
         let wall = WallMaterial::new(&asset.material, &surface, theory);
@@ -156,12 +156,12 @@ pub(crate) fn has_near_field(asset: &Asset, triangle: u32, theory: PlateTheory) 
     })
 }
 
-/// Where the near field takes over from the `followed` lowest modes: the first mode that it stands for, and its lowest angular
-/// frequency, rad/s. None at an edge, and where curvature is in the way of all waves that the modes leave out.
+/// Start of the near field beyond the `followed` lowest modes: the first mode that it stands for, and its lowest angular frequency, rad/s. None at an
+/// edge, and where curvature prevents all waves that the modes leave out.
 ///
-/// It starts at the same wave number close to an edge. Measured (`docs/near-field.md`): a quarter of the shortest mode's wavelength from a free or a held
-/// edge this is 8 % off, and 25 % where the modes up to twice the inverse distance answer statically first. Closer than a sixth of that
-/// wavelength it is off by half and more, and the residual vector serves instead.
+/// It starts at the same wave number close to an edge. Measured (`docs/near-field.md`): a quarter of the shortest mode's wavelength from a free or a
+/// held edge this is 8 % off, and 25 % if the modes up to twice the inverse distance answer statically first. Closer than a sixth of that wavelength
+/// it is off by half and more, and the residual vector serves instead.
 fn first_wave(
     asset: &Asset,
     wall: &WallMaterial,
@@ -194,12 +194,12 @@ fn first_wave(
     (k >= 0.999 * wanted && k * margin >= LEAST_EDGE).then_some((first, lowest))
 }
 
-/// Where the wall oscillators take over, rad/s, such that together with the modes before `first` they are the whole wall.
+/// Angular frequency at which the wall oscillators take over, rad/s, such that they and the modes before `first` are the whole wall.
 ///
-/// All motions of an infinite wall up to wave number k move a place by `Σ ξ² = k²/4πμ` per unit impulse, and so do the modes of a
-/// body, on average. But they come in shells: at the middle of a square plate only every fourth is felt, in pairs. What the modes
-/// really move says which k they reach, and elements that are too stiff do not mislead it. Measured: without this a wall with 120 modes
-/// and one with 300 differ twice as much, on a glass and on a bowl (`frangible-bake/tests/blow.rs`).
+/// All motions of an infinite wall up to wave number k move a place by `Σ ξ² = k²/4πμ` per unit impulse, and so do the modes of a body, on average.
+/// But they come in shells: at the middle of a square plate only every fourth is felt, in pairs. So k is taken from the sum over the actual modes,
+/// which elements that are too stiff do not mislead. Measured: without this a wall with 120 modes and one with 300 differ twice as much, on a glass
+/// and on a bowl (`frangible-bake/tests/blow.rs`).
 fn matched(
     body: &Body,
     touch: &Touch,
