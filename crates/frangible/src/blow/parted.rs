@@ -24,7 +24,7 @@ use super::faces::{Corner, corners};
 use super::groups::Groups;
 use super::moments::{Known, Moments, rigid_parts, rigid_push};
 use super::plan::Plan;
-use super::solve::{add_products, factor, is_positive, mirror, upper};
+use super::solve::{add_products, factor, is_positive, lower, mirror};
 use crate::body::Body;
 
 /// Shares of the pieces' own masses that are added to M; the first with which M is positive definite is used. Without them M may not be, since masses
@@ -86,8 +86,8 @@ impl Parted {
         let mut mass = vec![0.0; n * n];
         for (j, row) in mass.chunks_exact_mut(n.max(1)).enumerate() {
             let own = &held[j * plan.modes..(j + 1) * plan.modes];
-            add_products(&mut row[..upper(j)], &held, own);
-            add_products(&mut row[..upper(j)], rigid.as_flattened(), &rigid[j]);
+            add_products(&mut row[..lower(j)], &held, own);
+            add_products(&mut row[..lower(j)], rigid.as_flattened(), &rigid[j]);
             row.iter_mut().for_each(|sum| *sum = -*sum);
         }
         mirror(&mut mass, n);

@@ -124,7 +124,7 @@ pub(super) fn solve(factor: &[f64], x: &mut [f64]) {
 }
 
 /// End of the part of a symmetric matrix's row that is computed: [`mirror`] fills in the rest.
-pub(super) fn upper(row: usize) -> usize {
+pub(super) fn lower(row: usize) -> usize {
     ROWS * (row / ROWS + 1)
 }
 

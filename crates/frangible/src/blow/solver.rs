@@ -3,7 +3,7 @@
 use super::bank::Bank;
 use super::parted::Parted;
 use super::plan::Plan;
-use super::solve::{add, add_products, add_rows, dot, factor, inverse, mirror, solve, upper};
+use super::solve::{add, add_products, add_rows, dot, factor, inverse, lower, mirror, solve};
 
 /// Solver of ticks of one length. The corners that press form a system of their own, with one unknown each: with C the matrix without corners, the
 /// unknowns of the pieces are `C⁻¹b + Σ y μ`, `y = C⁻¹g`, and `(1/2κ + gᵀy) μ = −e/2` gives the corners' forces μ, e the gaps at the end of the tick
@@ -88,7 +88,7 @@ impl Solver {
             let terms = weighted.iter_mut().zip(parted.row(j)).zip(&springs);
             terms.for_each(|((to, p), spring)| *to = p * spring);
             add_products(
-                &mut stiffness[j * n..j * n + upper(j)],
+                &mut stiffness[j * n..j * n + lower(j)],
                 &parted.held,
                 &weighted,
             );
