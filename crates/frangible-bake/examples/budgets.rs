@@ -1,4 +1,4 @@
-//! Prints the README's table of budgets: what a drinking glass takes that lands on stone, by how finely it was baked.
+//! Prints the table of budgets in `book/src/how-to/games.md`: what a drinking glass takes that lands on stone, by how finely it was baked.
 
 use std::error::Error;
 use std::time::Instant;
