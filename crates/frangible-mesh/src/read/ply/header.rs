@@ -10,7 +10,7 @@ pub(super) enum Encoding {
     BigEndian,
 }
 
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
     I8,
     U8,
@@ -18,8 +18,28 @@ pub(super) enum Kind {
     U16,
     I32,
     U32,
+    I64,
+    U64,
     F32,
     F64,
+}
+
+impl Kind {
+    pub(super) fn is_whole(self) -> bool {
+        !matches!(self, Self::F32 | Self::F64)
+    }
+
+    /// The largest whole number without a sign, which has the bits of −1; none for the other kinds.
+    pub(super) fn all_bits(self) -> Option<i64> {
+        match self {
+            Self::U8 => Some(i64::from(u8::MAX)),
+            Self::U16 => Some(i64::from(u16::MAX)),
+            Self::U32 => Some(i64::from(u32::MAX)),
+            // Beyond what the index of a corner can hold.
+            Self::U64 => Some(i64::MAX),
+            _ => None,
+        }
+    }
 }
 
 pub(super) struct Property {
@@ -35,24 +55,40 @@ pub(super) struct Element {
     pub(super) properties: Vec<Property>,
 }
 
+/// Beginnings of lines that are passed over; some programs put a colon behind them.
+const REMARKS: [&[u8]; 4] = [b"comment", b"obj_info", b"#", b"//"];
+
 pub(super) struct Header {
     pub(super) encoding: Encoding,
     pub(super) elements: Vec<Element>,
 }
 
 impl Header {
+    /// Largest number of vertices that there may be.
+    pub(super) fn vertices(&self) -> u64 {
+        let vertices = self.elements.iter().filter(|e| e.name == b"vertex");
+        vertices.fold(0, |sum, e| sum.saturating_add(e.count))
+    }
+
     /// The header, and the bytes behind it.
     pub(super) fn parse(bytes: &[u8]) -> Result<(Self, &[u8]), ReadError> {
         let mut rest = bytes;
         let mut encoding = None;
         let mut elements: Vec<Element> = Vec::new();
+        let first = bytes.iter().position(|&b| b == b'\n' || b == b'\r');
+        let separator = match first.map(|end| &bytes[end..]) {
+            Some([b'\r', b'\n', ..]) | None => b'\n',
+            Some(end) => end[0],
+        };
         for line in 1.. {
-            let Some(end) = rest.iter().position(|&b| b == b'\n') else {
+            let Some(end) = rest.iter().position(|&b| b == separator) else {
                 return Err(ReadError::truncated("the header"));
             };
             let (text, after) = (&rest[..end], &rest[end + 1..]);
             rest = after;
-            let words: Vec<&[u8]> = words(text).collect();
+            // Some programs write capitals.
+            let small = text.to_ascii_lowercase();
+            let words: Vec<&[u8]> = words(&small).collect();
             let bad = || {
                 ReadError::malformed(
                     format!("line {line}"),
@@ -70,21 +106,22 @@ impl Header {
             }
             match words.as_slice() {
                 [b"end_header"] => break,
-                [] | [b"comment" | b"obj_info", ..] => {}
+                [] => {}
+                [word, ..] if REMARKS.iter().any(|known| word.starts_with(known)) => {}
                 [b"format", name, ..] => encoding = Some(encoding_named(name).ok_or_else(bad)?),
-                [b"element", name, count] => elements.push(Element {
+                [b"element", name, count, ..] => elements.push(Element {
                     name: name.to_vec(),
                     count: whole_number(count).ok_or_else(bad)?,
                     properties: Vec::new(),
                 }),
-                [b"property", b"list", count, value, name] => {
+                [b"property", b"list", count, value, name, ..] => {
                     let count = Some(kind_named(count).ok_or_else(bad)?);
                     let value = kind_named(value).ok_or_else(bad)?;
                     let name = name.to_vec();
                     let element = elements.last_mut().ok_or_else(bad)?;
                     element.properties.push(Property { name, value, count });
                 }
-                [b"property", value, name] => {
+                [b"property", value, name, ..] => {
                     let value = kind_named(value).ok_or_else(bad)?;
                     let name = name.to_vec();
                     let count = None;
@@ -121,6 +158,8 @@ fn kind_named(name: &[u8]) -> Option<Kind> {
         b"ushort" | b"uint16" => Kind::U16,
         b"int" | b"int32" => Kind::I32,
         b"uint" | b"uint32" => Kind::U32,
+        b"int64" | b"long" => Kind::I64,
+        b"uint64" | b"ulong" => Kind::U64,
         b"float" | b"float32" => Kind::F32,
         b"double" | b"float64" => Kind::F64,
         _ => return None,

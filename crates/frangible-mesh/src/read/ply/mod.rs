@@ -1,15 +1,16 @@
 //! Stanford PLY: text, little and big endian.
 
+mod faces;
 mod header;
 mod values;
 
 use glam::{DVec3, Vec2, Vec3};
 
+use self::faces::Faces;
 use self::header::{Element, Header, Kind, Property};
 use self::values::Values;
 use super::finish::WHITE;
-use super::polygon::triangulate;
-use super::{ReadError, check_triangles, check_vertices};
+use super::{ReadError, check_vertices};
 use crate::InputMesh;
 
 pub(crate) fn parse(bytes: &[u8]) -> Result<InputMesh, ReadError> {
@@ -20,7 +21,10 @@ pub(crate) fn parse(bytes: &[u8]) -> Result<InputMesh, ReadError> {
     for element in &header.elements {
         match element.name.as_slice() {
             b"vertex" => read_vertices(element, &mut values, &mut mesh)?,
-            b"face" => faces.read(element, &mut values)?,
+            b"face" | b"faces" => faces.read(element, &mut values)?,
+            b"tristrips" | b"tristrip" => {
+                faces.read_strips(element, header.vertices(), &mut values)?;
+            }
             _ => skip(element, &mut values)?,
         }
     }
@@ -134,75 +138,6 @@ fn complete(mesh: &mut InputMesh, [normals, uvs, colors]: [bool; 3]) {
     }
     if colors {
         mesh.colors.resize(count, WHITE);
-    }
-}
-
-/// Faces as the file has them: vertices may come after them.
-#[derive(Default)]
-struct Faces {
-    corners: Vec<i64>,
-    ends: Vec<u32>,
-    triangles: u64,
-}
-
-impl Faces {
-    fn read(&mut self, element: &Element, values: &mut Values) -> Result<(), ReadError> {
-        check_triangles(element.count)?;
-        let is_face = |p: &Property| {
-            p.count.is_some() && [&b"vertex_indices"[..], b"vertex_index"].contains(&&p.name[..])
-        };
-        if !element.properties.iter().any(is_face) {
-            return Err(ReadError::malformed(
-                "the header",
-                "faces have no list named vertex_indices",
-            ));
-        }
-        for row in 0..element.count {
-            let place = || format!("face {}", row + 1);
-            for property in &element.properties {
-                let Some(count) = property.count.filter(|_| is_face(property)) else {
-                    values.skip(property, place)?;
-                    continue;
-                };
-                let count = values.list_length(count, place)?;
-                self.triangles += count.saturating_sub(2);
-                check_triangles(self.triangles)?;
-                for _ in 0..count {
-                    self.corners
-                        .push(values.next(property.value, place)? as i64);
-                }
-                self.ends.push(self.corners.len() as u32);
-            }
-        }
-        Ok(())
-    }
-
-    fn triangulate(&self, mesh: &mut InputMesh) -> Result<(), ReadError> {
-        let vertices = mesh.positions.len();
-        let mut points = Vec::new();
-        let mut local = Vec::new();
-        let mut first = 0;
-        for (face, &end) in self.ends.iter().enumerate() {
-            let corners = self.corners.get(first..end as usize).unwrap_or_default();
-            first = end as usize;
-            mesh.skipped_faces += usize::from(corners.len() < 3);
-            points.clear();
-            for &index in corners {
-                let position = usize::try_from(index)
-                    .ok()
-                    .and_then(|v| mesh.positions.get(v));
-                let face = face + 1;
-                points.push(*position.ok_or(ReadError::IndexOutOfRange {
-                    face,
-                    index,
-                    vertices,
-                })?);
-            }
-            triangulate(&points, &mut local);
-            let triangles = local.iter().map(|t| t.map(|k| corners[k as usize] as u32));
-            mesh.triangles.extend(triangles);
-        }
-        Ok(())
     }
 }
 

@@ -4,7 +4,7 @@ use super::header::{Encoding, Kind, Property};
 use crate::read::ReadError;
 use crate::read::text::{number, shown};
 
-/// Reads numbers from the front of the bytes left; every integer kind fits into f64.
+/// Reads numbers from the front of the bytes left; every whole number up to 2⁵³ fits into f64.
 pub(super) struct Values<'a> {
     encoding: Encoding,
     rest: &'a [u8],
@@ -88,6 +88,8 @@ impl<'a> Values<'a> {
             Kind::U16 => f64::from(u16::from_le_bytes(self.bytes(is_big)?)),
             Kind::I32 => f64::from(i32::from_le_bytes(self.bytes(is_big)?)),
             Kind::U32 => f64::from(u32::from_le_bytes(self.bytes(is_big)?)),
+            Kind::I64 => i64::from_le_bytes(self.bytes(is_big)?) as f64,
+            Kind::U64 => u64::from_le_bytes(self.bytes(is_big)?) as f64,
             Kind::F32 => f64::from(f32::from_le_bytes(self.bytes(is_big)?)),
             Kind::F64 => f64::from_le_bytes(self.bytes(is_big)?),
         })
