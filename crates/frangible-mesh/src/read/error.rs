@@ -16,6 +16,9 @@ pub enum ReadError {
         /// The most similar name in the same folder.
         nearest: Option<String>,
     },
+    /// An address of the web in place of a path.
+    #[error("{} is an address, not a file; download it first and name the file", .0.display())]
+    Address(PathBuf),
     /// The path names a folder or a device.
     #[error("{} is not a file; name a mesh file inside it", .0.display())]
     NotAFile(PathBuf),
@@ -61,6 +64,15 @@ pub enum ReadError {
     /// The format allows it, this reader does not know it.
     #[error("the file needs {0}, which is not supported; export it without")]
     Unsupported(String),
+    /// glTF of another version.
+    #[error(
+        "the file is glTF {version}, and only glTF 2.0 can be read; export it as 2.0, or convert it, for example with \
+         `gltf-pipeline -i old.gltf -o new.glb`"
+    )]
+    GltfVersion {
+        /// Version that the file names or shows.
+        version: String,
+    },
     /// A face refers to a vertex that does not exist.
     #[error(
         "face {face} refers to vertex {index}, but there are only {vertices} (index as in the file)"

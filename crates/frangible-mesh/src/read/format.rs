@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use super::text::in_utf8;
+
 /// A mesh format that can be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum MeshFormat {
@@ -37,15 +39,13 @@ impl MeshFormat {
         if is_exactly_binary_stl(bytes) {
             return Some(Self::Stl);
         }
-        let text = bytes
-            .strip_prefix(b"\xef\xbb\xbf")
-            .unwrap_or(bytes)
-            .trim_ascii_start();
+        let text = &in_utf8(bytes)[..];
+        let text = text.trim_ascii_start();
         let first = text
             .split(|b| b.is_ascii_whitespace())
             .next()
             .unwrap_or_default();
-        match first {
+        match first.to_ascii_lowercase().as_slice() {
             b"ply" => Some(Self::Ply),
             b"solid" => Some(Self::Stl),
             _ if text.starts_with(b"{") => Some(Self::Gltf),
@@ -71,5 +71,9 @@ fn starts_like_obj(text: &[u8]) -> bool {
         .map(<[u8]>::trim_ascii)
         .find(|line| !line.is_empty() && !line.starts_with(b"#"))
         .and_then(|line| line.split(u8::is_ascii_whitespace).next())
-        .is_some_and(|word| KEYWORDS.contains(&word))
+        .is_some_and(|word| {
+            KEYWORDS
+                .iter()
+                .any(|known| known.eq_ignore_ascii_case(word))
+        })
 }

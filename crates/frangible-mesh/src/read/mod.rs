@@ -54,6 +54,8 @@ pub fn parse_mesh_named(
     bytes: &[u8],
     folder: Option<&Path>,
 ) -> Result<InputMesh, ReadError> {
+    check_bytes(bytes.len() as u64)?;
+    let bytes = &text::in_utf8(bytes)[..];
     let by_name = MeshFormat::from_extension(name);
     let by_content = MeshFormat::sniff(bytes);
     let format = match (by_name, by_content) {
@@ -87,6 +89,7 @@ pub fn parse_mesh(
     if bytes.is_empty() {
         return Err(ReadError::Empty);
     }
+    let bytes = &text::in_utf8(bytes)[..];
     let mesh = match format {
         MeshFormat::Obj => obj::parse(bytes, folder),
         MeshFormat::Stl => stl::parse(bytes),
@@ -96,8 +99,24 @@ pub fn parse_mesh(
     finish::finish(mesh)
 }
 
+/// Returns true for an address of the web, such as `https://example.org/a.glb`, and for those of other services.
+pub(crate) fn is_address(name: &str) -> bool {
+    const SCHEMES: [&str; 4] = ["http", "https", "ftp", "s3"];
+    // A scene's folder may have been put before it.
+    let before = name.split_once(":/").map(|(before, _)| before);
+    let scheme = before.and_then(|before| before.rsplit(['/', '\\']).next());
+    scheme.is_some_and(|scheme| {
+        SCHEMES
+            .iter()
+            .any(|known| known.eq_ignore_ascii_case(scheme))
+    })
+}
+
 /// Reads a whole file of at most [`MOST_BYTES`].
 pub(crate) fn read_file(path: &Path) -> Result<Vec<u8>, ReadError> {
+    if is_address(&path.to_string_lossy()) {
+        return Err(ReadError::Address(path.to_path_buf()));
+    }
     let unreadable = |source: io::Error| match source.kind() {
         io::ErrorKind::NotFound => ReadError::Missing {
             path: path.to_path_buf(),

@@ -3,6 +3,34 @@
 use std::borrow::Cow;
 
 use super::ReadError;
+use super::format::is_exactly_binary_stl;
+
+/// Units of UTF-16 that must be letters of ASCII for a file without a mark to count as UTF-16.
+const TELLING: usize = 8;
+
+/// The bytes of a text file without its byte order mark, and in UTF-8 where they are UTF-16; other files as they are.
+pub(crate) fn in_utf8(bytes: &[u8]) -> Cow<'_, [u8]> {
+    let is_ascii = |unit: u16| (1..128).contains(&unit);
+    let starts = |unit: fn([u8; 2]) -> u16| {
+        let start = bytes.get(..2 * TELLING).unwrap_or_default();
+        let mut units = start.as_chunks().0.iter().map(|&pair| unit(pair));
+        !start.is_empty() && units.all(is_ascii)
+    };
+    let unit: fn([u8; 2]) -> u16 = match bytes {
+        _ if is_exactly_binary_stl(bytes) => return Cow::Borrowed(bytes),
+        [0xef, 0xbb, 0xbf, rest @ ..] => return Cow::Borrowed(rest),
+        [0xff, 0xfe, ..] => u16::from_le_bytes,
+        [0xfe, 0xff, ..] => u16::from_be_bytes,
+        _ if starts(u16::from_le_bytes) => u16::from_le_bytes,
+        _ if starts(u16::from_be_bytes) => u16::from_be_bytes,
+        _ => return Cow::Borrowed(bytes),
+    };
+    let units = bytes.as_chunks().0.iter().map(|&pair| unit(pair));
+    let text: String = char::decode_utf16(units.skip_while(|&unit| unit == 0xfeff))
+        .map(|letter| letter.unwrap_or(char::REPLACEMENT_CHARACTER))
+        .collect();
+    Cow::Owned(text.into_bytes())
+}
 
 /// The lines of a file with their numbers from 1, ends trimmed. A backslash at the end joins the next line.
 pub(crate) struct Lines<'a> {
@@ -14,7 +42,7 @@ pub(crate) struct Lines<'a> {
 impl<'a> Lines<'a> {
     pub(crate) fn new(bytes: &'a [u8]) -> Self {
         Self {
-            rest: Some(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)),
+            rest: Some(bytes),
             separator: if bytes.contains(&b'\n') { b'\n' } else { b'\r' },
             number: 0,
         }
@@ -58,6 +86,15 @@ impl<'a> Iterator for Lines<'a> {
             }
         }
         Some((number, Cow::Owned(joined)))
+    }
+}
+
+/// A keyword in small letters.
+pub(crate) fn lower(word: &[u8]) -> Cow<'_, [u8]> {
+    if word.iter().any(u8::is_ascii_uppercase) {
+        Cow::Owned(word.to_ascii_lowercase())
+    } else {
+        Cow::Borrowed(word)
     }
 }
 

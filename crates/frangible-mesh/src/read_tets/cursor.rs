@@ -5,27 +5,27 @@ use crate::read::text::shown;
 
 /// Encoding of numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Coding {
+pub(crate) enum Coding {
     Text,
     Little,
     Big,
 }
 
 /// Reads forwards only; nothing is taken that is not there.
-pub(super) struct Cursor<'a> {
+pub(crate) struct Cursor<'a> {
     bytes: &'a [u8],
     at: usize,
     /// Number of the line it is at, counted from 1.
     line: usize,
     /// Begins a comment that ends with its line; none where zero.
     comment: u8,
-    pub(super) coding: Coding,
+    pub(crate) coding: Coding,
 }
 
 impl<'a> Cursor<'a> {
-    pub(super) fn new(bytes: &'a [u8]) -> Self {
+    pub(crate) fn new(bytes: &'a [u8]) -> Self {
         Self {
-            bytes: bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes),
+            bytes,
             at: 0,
             line: 1,
             comment: 0,
@@ -42,7 +42,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// Place of an error: a line of text, a byte of a binary file.
-    pub(super) fn place(&self) -> String {
+    pub(crate) fn place(&self) -> String {
         match self.coding {
             Coding::Text => format!("line {}", self.line),
             _ => format!("byte {}", self.at),
@@ -54,7 +54,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// The next word, over any line ends.
-    pub(super) fn word(&mut self) -> Option<&'a [u8]> {
+    pub(crate) fn word(&mut self) -> Option<&'a [u8]> {
         loop {
             let &byte = self.bytes.get(self.at)?;
             if byte == b'\n' {
@@ -103,6 +103,18 @@ impl<'a> Cursor<'a> {
             mark => line.iter().position(|&b| b == mark).unwrap_or(line.len()),
         };
         Some(line[..length].trim_ascii())
+    }
+
+    /// Takes the rest of the line up to a word with which, or with what follows it, something else begins.
+    pub(crate) fn rest_of_line_before(&mut self, begins: impl Fn(&[u8]) -> bool) -> &'a [u8] {
+        let rest = &self.bytes[self.at..];
+        let is_end = |&b: &u8| b == b'\n' || b == b'\r';
+        let line = &rest[..rest.iter().position(is_end).unwrap_or(rest.len())];
+        let starts = |&i: &usize| i == 0 || line[i - 1].is_ascii_whitespace();
+        let mut words = (0..line.len()).filter(starts);
+        let length = words.find(|&i| begins(&line[i..])).unwrap_or(line.len());
+        self.at += length;
+        line[..length].trim_ascii()
     }
 
     /// Goes past the next occurrence of `mark`, or to the end of the file.

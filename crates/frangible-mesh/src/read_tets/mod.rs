@@ -4,7 +4,7 @@
 //! version each, or reserve what a header asks for. Nothing here reserves memory that the file does not fill.
 
 mod builder;
-mod cursor;
+pub(crate) mod cursor;
 mod data_array;
 mod medit;
 mod msh;
@@ -18,6 +18,7 @@ mod xml;
 
 use std::path::Path;
 
+use crate::read::text::in_utf8;
 use crate::read::{ReadError, check_bytes, read_file};
 use crate::tet_input::TetInput;
 
@@ -82,6 +83,7 @@ pub fn parse_tets(format: TetFormat, bytes: &[u8]) -> Result<TetInput, ReadError
     if bytes.is_empty() {
         return Err(ReadError::Empty);
     }
+    let bytes = &in_utf8(bytes)[..];
     match format {
         TetFormat::Msh => msh::parse(bytes),
         TetFormat::Vtk => vtk::parse(bytes),
@@ -98,5 +100,6 @@ pub fn parse_tets(format: TetFormat, bytes: &[u8]) -> Result<TetInput, ReadError
 /// # Errors
 /// See [`ReadError`].
 pub fn parse_tetgen(node: &[u8], ele: &[u8], face: Option<&[u8]>) -> Result<TetInput, ReadError> {
-    tetgen::parse(node, ele, face)
+    let face = face.map(in_utf8);
+    tetgen::parse(&in_utf8(node), &in_utf8(ele), face.as_deref())
 }

@@ -12,7 +12,7 @@ use self::mtl::Materials;
 use super::finish::{NO_MATERIAL, WHITE};
 use super::polygon::triangulate;
 use super::runs::Runs;
-use super::text::{Lines, next_number, number, shown, words};
+use super::text::{Lines, lower, next_number, number, shown, words};
 use super::{ReadError, check_triangles, check_vertices};
 use crate::InputMesh;
 
@@ -42,7 +42,9 @@ pub(crate) fn parse(bytes: &[u8], folder: Option<&Path>) -> Result<InputMesh, Re
     let (mut object, mut group) = (Runs::default(), Runs::default());
     for (line, text) in Lines::new(bytes) {
         let mut words = words(&text);
-        match words.next() {
+        // Some programs write capitals.
+        let keyword = words.next().map(lower);
+        match keyword.as_deref() {
             Some(b"v") => {
                 obj.positions.push(vector(&mut words, line)?);
                 obj.color(&mut words, line);
@@ -91,7 +93,7 @@ fn vector<'a>(words: &mut impl Iterator<Item = &'a [u8]>, line: usize) -> Result
 
 /// Names may hold spaces.
 fn rest_of<'a>(text: &'a [u8], keyword: &[u8]) -> &'a [u8] {
-    text.strip_prefix(keyword).unwrap_or_default().trim_ascii()
+    text.get(keyword.len()..).unwrap_or_default().trim_ascii()
 }
 
 fn name_of(bytes: &[u8]) -> String {

@@ -5,7 +5,7 @@ use std::path::{Component, Path};
 
 use crate::InputMaterial;
 use crate::read::read_file;
-use crate::read::text::{Lines, number, words};
+use crate::read::text::{Lines, in_utf8, lower, number, words};
 
 /// The materials that faces use, in the order of their first use.
 #[derive(Default)]
@@ -55,12 +55,12 @@ impl Materials {
 fn parse(bytes: &[u8]) -> BTreeMap<Vec<u8>, InputMaterial> {
     let mut known = BTreeMap::new();
     let mut current: Option<(Vec<u8>, InputMaterial)> = None;
-    for (_, text) in Lines::new(bytes) {
+    for (_, text) in Lines::new(&in_utf8(bytes)) {
         let mut words = words(&text);
-        let Some(keyword) = words.next() else {
+        let Some(keyword) = words.next().map(lower) else {
             continue;
         };
-        if keyword == b"newmtl" {
+        if *keyword == b"newmtl"[..] {
             let name = text.get(6..).unwrap_or_default().trim_ascii().to_vec();
             known.extend(current.replace((name, InputMaterial::default())));
             continue;
@@ -75,18 +75,18 @@ fn parse(bytes: &[u8]) -> BTreeMap<Vec<u8>, InputMaterial> {
                 .map(|v| v.clamp(0.0, 1000.0) as f32)
         };
         let share = |v: Option<f32>| v.filter(|v| v.is_finite()).map(|v| v.min(1.0));
-        match keyword {
-            b"Kd" => {
+        match &*keyword {
+            b"kd" => {
                 for k in 0..3 {
                     material.base_color[k] = share(value()).unwrap_or(material.base_color[k]);
                 }
             }
             b"d" => material.base_color[3] = share(value()).unwrap_or(1.0),
-            b"Tr" => material.base_color[3] = 1.0 - share(value()).unwrap_or(0.0),
-            b"Pm" => material.metallic = share(value()).unwrap_or(0.0),
-            b"Pr" => material.roughness = share(value()).unwrap_or(0.7),
+            b"tr" => material.base_color[3] = 1.0 - share(value()).unwrap_or(0.0),
+            b"pm" => material.metallic = share(value()).unwrap_or(0.0),
+            b"pr" => material.roughness = share(value()).unwrap_or(0.7),
             // Blinn's exponent to the roughness of equal highlight width: α² = 2 / (n + 2).
-            b"Ns" => {
+            b"ns" => {
                 if let Some(exponent) = value().filter(|n| n.is_finite()) {
                     material.roughness = (2.0 / (exponent + 2.0)).powf(0.25);
                 }
