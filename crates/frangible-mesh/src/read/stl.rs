@@ -5,13 +5,17 @@ use glam::DVec3;
 use super::format::is_exactly_binary_stl;
 use super::polygon::triangulate;
 use super::runs::Runs;
-use super::text::{Lines, next_number, words};
+use super::text::{number, shown, words};
 use super::{ReadError, check_triangles};
 use crate::InputMesh;
+use crate::read_tets::cursor::Cursor;
 
 /// Bytes of a binary file before its facets, and of each facet.
 const HEADER: usize = 84;
 const FACET: usize = 50;
+
+/// Count with all bits set: like 0 it stands for one that was never filled in.
+const VOID: u32 = u32::MAX;
 
 const NO_STL: &str = "this is text, but no STL: a text STL begins with the word “solid”";
 
@@ -29,10 +33,7 @@ pub(crate) fn parse(bytes: &[u8]) -> Result<InputMesh, ReadError> {
 }
 
 fn is_text(bytes: &[u8]) -> bool {
-    let text = bytes
-        .strip_prefix(b"\xef\xbb\xbf")
-        .unwrap_or(bytes)
-        .trim_ascii_start();
+    let text = bytes.trim_ascii_start();
     let start = text.get(..1024).unwrap_or(text);
     let solid = start
         .get(..5)
@@ -48,13 +49,27 @@ fn looks_written(bytes: &[u8]) -> bool {
         .all(|&b| b >= b' ' && b != 0x7f || b.is_ascii_whitespace())
 }
 
+/// Count of facets where the header's is void: as many as there are bytes for.
+fn counted(there: usize) -> Result<u32, ReadError> {
+    check_triangles(there as u64)?;
+    if there > 0 {
+        log::warn!("the binary STL does not count its facets; by its length it has {there}");
+    }
+    Ok(there as u32)
+}
+
 fn parse_binary(bytes: &[u8]) -> Result<InputMesh, ReadError> {
     let count: [u8; 4] = bytes
         .get(80..HEADER)
         .and_then(|count| count.try_into().ok())
         .ok_or_else(|| ReadError::truncated("the 84 bytes before the facets of a binary STL"))?;
-    let count = u32::from_le_bytes(count);
     let there = (bytes.len() - HEADER) / FACET;
+    let count = match u32::from_le_bytes(count) {
+        // The writer did not come back to fill it in.
+        VOID if there > 0 => counted(there)?,
+        0 => counted(there)?,
+        count => count,
+    };
     if (there as u64) < u64::from(count) {
         return Err(ReadError::truncated(format!(
             "facet {} of {count}",
@@ -90,28 +105,32 @@ fn parse_text(bytes: &[u8]) -> Result<InputMesh, ReadError> {
     let mut triangles = Vec::new();
     let (mut solid, mut groups) = (Runs::default(), Vec::new());
     let (mut in_facet, mut ended) = (false, false);
-    for (line, text) in Lines::new(bytes) {
-        let mut words = words(&text);
-        let Some(keyword) = words.next() else {
-            continue;
-        };
-        if keyword.eq_ignore_ascii_case(b"vertex") {
-            let mut next = || next_number(&mut words, line);
+    let mut facet = 0;
+    // The format goes by words; its names alone end with their line.
+    let mut cursor = Cursor::new(bytes);
+    while let Some(word) = cursor.word() {
+        let is = |keyword: &[u8]| word.eq_ignore_ascii_case(keyword);
+        let place = |cursor: &Cursor| format!("{}, facet {facet}", cursor.place());
+        if is(b"vertex") {
+            let mut next = || {
+                let word = cursor.word().ok_or_else(|| cut_off(facet))?;
+                let problem = || format!("“{}” is not a number", shown(word));
+                number(word).ok_or_else(|| ReadError::malformed(place(&cursor), problem()))
+            };
             corners.push(DVec3::new(next()?, next()?, next()?));
             check_triangles(corners.len() as u64)?;
-        } else if keyword.eq_ignore_ascii_case(b"facet") {
+        } else if is(b"facet") {
             if in_facet {
-                return Err(ReadError::malformed(
-                    format!("line {line}"),
-                    "a facet begins inside another",
-                ));
+                let problem = "a facet begins inside another";
+                return Err(ReadError::malformed(place(&cursor), problem));
             }
             in_facet = true;
+            facet += 1;
             corners.clear();
-        } else if keyword.eq_ignore_ascii_case(b"endfacet") {
+        } else if is(b"endfacet") {
             if corners.len() < 3 {
                 let problem = format!("the facet has {} vertices, it needs three", corners.len());
-                return Err(ReadError::malformed(format!("line {line}"), problem));
+                return Err(ReadError::malformed(place(&cursor), problem));
             }
             triangulate(&corners, &mut triangles);
             let first = mesh.positions.len() as u32;
@@ -120,18 +139,18 @@ fn parse_text(bytes: &[u8]) -> Result<InputMesh, ReadError> {
             mesh.triangles.extend(shifted);
             check_triangles(mesh.triangles.len() as u64)?;
             in_facet = false;
-        } else if keyword.eq_ignore_ascii_case(b"solid") {
-            let name = text.trim_ascii().get(5..).unwrap_or_default().trim_ascii();
+        } else if is(b"solid") {
+            let name = cursor.rest_of_line_before(begins_facets);
             let name = String::from_utf8_lossy(name).into_owned();
             solid.change([name], mesh.triangles.len() as u32, &mut groups);
-        } else if keyword.eq_ignore_ascii_case(b"endsolid") {
+        } else if is(b"endsolid") {
             ended = true;
             solid.change([], mesh.triangles.len() as u32, &mut groups);
+            cursor.rest_of_line_before(|rest| first_is(rest, b"solid"));
         }
     }
     if in_facet {
-        let facet = mesh.triangles.len() + 1;
-        return Err(ReadError::truncated(format!("facet {facet}")));
+        return Err(cut_off(facet));
     }
     if !ended {
         log::warn!("the STL has no “endsolid”: it may be cut off");
@@ -139,4 +158,25 @@ fn parse_text(bytes: &[u8]) -> Result<InputMesh, ReadError> {
     solid.change([], mesh.triangles.len() as u32, &mut groups);
     mesh.groups = groups;
     Ok(mesh)
+}
+
+fn cut_off(facet: usize) -> ReadError {
+    ReadError::truncated(format!("facet {facet}"))
+}
+
+fn first_is(line: &[u8], keyword: &[u8]) -> bool {
+    words(line)
+        .next()
+        .is_some_and(|word| word.eq_ignore_ascii_case(keyword))
+}
+
+/// Returns true where the name of a solid ends though its line does not: a name may have the word “facet” in it.
+fn begins_facets(line: &[u8]) -> bool {
+    let second = line
+        .iter()
+        .position(u8::is_ascii_whitespace)
+        .unwrap_or(line.len());
+    let second = &line[second..];
+    first_is(line, b"endsolid")
+        || first_is(line, b"facet") && (first_is(second, b"normal") || first_is(second, b"outer"))
 }
