@@ -8,6 +8,7 @@ use frangible_mesh::{InputMesh, MeshFormat, ReadError, parse_mesh, read_mesh, re
 
 mod formats;
 mod refused;
+mod variants;
 
 /// A tetrahedron of volume 1/6, wound outwards.
 const CORNERS: [[f32; 3]; 4] = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [0., 0., 1.]];

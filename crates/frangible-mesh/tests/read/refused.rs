@@ -229,3 +229,52 @@ fn a_missing_file_suggests_its_neighbour() {
         Err(ReadError::Missing { .. })
     ));
 }
+
+#[test]
+fn gltf_of_another_version_is_named_with_the_way_out() {
+    let old = r#"{"asset":{"version":"1.0"},"scenes":{},"meshes":{"m":{}}}"#;
+    let mut binary = glb(&gltf(ONE_NODE, ""));
+    binary[4] = 1;
+    for bytes in [
+        old.as_bytes(),
+        br#"{"asset":{"version":1.0},"meshes":{"m":{}}}"#,
+        // Version 1.0 did not ask for a version.
+        br#"{"meshes":{"m":{"primitives":[]}},"accessors":{}}"#,
+        br#"{"asset":{"version":"1.1"}}"#,
+        &binary,
+    ] {
+        let message = message(MeshFormat::Gltf, bytes);
+        assert!(
+            message.contains("glTF 1.") && message.contains("gltf-pipeline"),
+            "{message}"
+        );
+    }
+    let new = r#"{"asset":{"version":"3.0"},"meshes":{}}"#;
+    assert!(message(MeshFormat::Gltf, new).contains("glTF 3.0"));
+}
+
+#[test]
+fn addresses_of_the_web_are_to_be_downloaded_first() {
+    for address in [
+        "https://example.org/a.glb",
+        "http://example.org/a.obj",
+        "HTTPS://example.org/a.stl?x=1",
+        "ftp://example.org/a.ply",
+    ] {
+        let message = read_mesh(Path::new(address))
+            .expect_err("no file")
+            .to_string();
+        assert!(
+            message.contains("download") && message.contains(address),
+            "{message}"
+        );
+    }
+    let tets = frangible_mesh::read_tets(Path::new("https://example.org/a.msh"));
+    assert!(tets.expect_err("no file").to_string().contains("download"));
+    let folder = Folder::new("address");
+    let uri = r#","uri":"https://example.org/a.bin""#;
+    let message = read_mesh(&folder.write("a.gltf", gltf(ONE_NODE, uri)))
+        .expect_err("no buffer")
+        .to_string();
+    assert!(message.contains("buffer 0") && message.contains("download"));
+}

@@ -95,12 +95,21 @@ pub(super) fn read<const N: usize>(
     }
     check_vertices(accessor.count.0)?;
     let count = accessor.count.0 as usize;
-    let Some(view) = accessor.buffer_view else {
-        return Err(bad("it has no data"));
-    };
     let offset = accessor.byte_offset.map_or(0, |offset| offset.0);
-    let rows = Rows::new((root, buffers), view, (offset, count), (kind.0, N), &place)?;
-    let mut values: Vec<[f64; N]> = (0..count).map(|i| rows.row(i)).collect();
+    let mut values: Vec<[f64; N]> = match accessor.buffer_view {
+        Some(view) => {
+            let rows = Rows::new((root, buffers), view, (offset, count), (kind.0, N), &place)?;
+            (0..count).map(|i| rows.row(i)).collect()
+        }
+        // Zeros that others replace. A few bytes must not ask for gigabytes.
+        None if accessor.sparse.is_some() && count <= buffers.bytes() => vec![[0.0; N]; count],
+        None if accessor.sparse.is_some() => {
+            let problem =
+                format!("it has {count} rows, more than the buffers have bytes; export it anew");
+            return Err(bad(&problem));
+        }
+        None => return Err(bad("it has no data; export it with its buffer")),
+    };
     replace_sparse(root, buffers, accessor, kind.0, &mut values, &place)?;
     if accessor.normalized {
         normalize(kind.0, &mut values);

@@ -8,7 +8,7 @@ use base64::engine::general_purpose::STANDARD;
 use gltf_json::buffer::{Buffer, View};
 use gltf_json::{Index, Root};
 
-use crate::read::{ReadError, read_file};
+use crate::read::{ReadError, is_address, read_file};
 
 /// Contents of all buffers, in their order.
 pub(super) struct Buffers<'a> {
@@ -28,6 +28,11 @@ impl<'a> Buffers<'a> {
             .map(|(i, buffer)| content(i, buffer, blob, folder));
         let contents = contents.collect::<Result<Vec<_>, _>>()?;
         Ok(Self { contents })
+    }
+
+    /// Bytes of all buffers together.
+    pub(super) fn bytes(&self) -> usize {
+        self.contents.iter().map(|content| content.len()).sum()
     }
 
     /// The bytes of a buffer view.
@@ -72,6 +77,11 @@ fn content<'a>(
             .decode(code)
             .map_err(|error| bad(&format!("its base64 is damaged: {error}")))?;
         return Ok(Cow::Owned(bytes));
+    }
+    if is_address(uri) {
+        return Err(bad(
+            "it is an address, not a file; download it into the folder of the glTF and name it there",
+        ));
     }
     let folder = folder.ok_or_else(|| {
         bad("it is a file of its own, which cannot be read from memory; use .glb")

@@ -7,13 +7,14 @@ mod scene;
 
 use std::path::Path;
 
-use gltf_json::Root;
 use gltf_json::material::Material;
+use gltf_json::{Root, Value};
 
 use self::buffers::Buffers;
 use self::primitive::Meshes;
 use self::scene::Instance;
 use super::ReadError;
+use super::text::shown;
 use crate::{InputGroup, InputMaterial, InputMesh};
 
 /// Extensions that hide the geometry from a reader that does not know them. Others change only how it looks.
@@ -28,14 +29,17 @@ pub(crate) fn parse(bytes: &[u8], folder: Option<&Path>) -> Result<InputMesh, Re
     let (json, blob) = if bytes.starts_with(b"glTF") {
         split_glb(bytes)?
     } else {
-        (bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes), None)
+        (bytes, None)
     };
     if !json.trim_ascii_start().starts_with(b"{") {
         let problem = "a GLB begins with the letters “glTF”, a glTF with “{”; this is neither";
         return Err(ReadError::malformed("the first bytes", problem));
     }
-    let root: Root = gltf_json::deserialize::from_slice(json)
-        .map_err(|error| ReadError::malformed("the JSON of the glTF", error.to_string()))?;
+    let root: Root = gltf_json::deserialize::from_slice(json).map_err(|error| {
+        other_version(json)
+            .unwrap_or_else(|| ReadError::malformed("the JSON of the glTF", error.to_string()))
+    })?;
+    check_version(&root.asset.version)?;
     if let Some(extension) = root
         .extensions_required
         .iter()
@@ -73,6 +77,26 @@ pub(crate) fn parse(bytes: &[u8], folder: Option<&Path>) -> Result<InputMesh, Re
     Ok(mesh)
 }
 
+fn check_version(version: &str) -> Result<(), ReadError> {
+    if version.split('.').next() == Some("2") {
+        return Ok(());
+    }
+    let version = shown(version.as_bytes());
+    Err(ReadError::GltfVersion { version })
+}
+
+/// The error for JSON that cannot be read because it is another version's: 1.0 has its parts by name, not in lists.
+fn other_version(json: &[u8]) -> Option<ReadError> {
+    let json: Value = gltf_json::deserialize::from_slice(json).ok()?;
+    let version = match json.get("asset").and_then(|asset| asset.get("version")) {
+        Some(Value::String(version)) => version.clone(),
+        Some(Value::Number(version)) => version.to_string(),
+        _ if json.get("meshes")?.is_object() => "1.0".into(),
+        _ => return None,
+    };
+    check_version(&version).err()
+}
+
 /// Number of pieces of bodies that a film of this project shows: they overlap where the body was whole, and are no body together.
 fn pieces(root: &Root) -> usize {
     let generator = root.asset.generator.as_deref().unwrap_or_default();
@@ -94,7 +118,7 @@ fn split_glb(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), ReadError> {
     };
     let version = word(4).ok_or_else(|| ReadError::truncated("the GLB header"))?;
     if version != 2 {
-        return Err(ReadError::Unsupported(format!("glTF version {version}")));
+        check_version(&format!("{version}.0"))?;
     }
     let chunk = |at: usize, kind: &[u8]| {
         let length = word(at)? as usize;
