@@ -18,6 +18,7 @@ mod read_tets;
 mod repair;
 pub mod shapes;
 mod similarity;
+mod slivers;
 mod solid;
 mod stuffing;
 mod surface;

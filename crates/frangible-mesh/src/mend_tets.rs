@@ -9,11 +9,9 @@ use glam::DVec3;
 use thiserror::Error;
 
 use crate::quality::volume;
+use crate::slivers::{TooMany, mend_slivers};
 use crate::tet_input::TetInput;
 use crate::tets::{TetBody, pieces};
-
-/// Below this share of the longest edge's cube a tetrahedron has no volume: its height is lost in rounding.
-const FLAT: f64 = 1e-6;
 
 /// A middle node farther from the middle of its edge than this share of its length is no middle: from a quarter on a
 /// curved element may be folded.
@@ -44,16 +42,20 @@ pub enum TetInputError {
         /// Its index.
         node: usize,
     },
-    /// A flat tetrahedron.
+    /// Flat tetrahedra, too many to be mended.
     #[error(
-        "element {element} has a volume of {volume:.1e} (in the file's unit), next to nothing for its edges; mend or \
-         optimise the mesh where it was made"
+        "{count} of {of} tetrahedra have next to no volume for their edges, the first of them element {element} with \
+         {volume:.1e} (in the file's unit); up to a tenth is mended: optimise the mesh where it was made"
     )]
     Flat {
-        /// Its number in the file.
+        /// Number of the first in the file.
         element: u64,
         /// Its volume, in the file's unit cubed.
         volume: f64,
+        /// Number of flat ones.
+        count: usize,
+        /// Number of all.
+        of: usize,
     },
     /// A face of three tetrahedra.
     #[error(
@@ -99,6 +101,12 @@ pub enum TetInputError {
 pub struct TetMend {
     /// Tetrahedra that were turned inside out.
     pub turned: usize,
+    /// Tetrahedra without volume that were dropped.
+    pub flat: usize,
+    /// Tetrahedra without volume, or folded, that were given one by a move of a node.
+    pub lifted: usize,
+    /// Farthest of these moves, share of the longest edge.
+    pub moved: f64,
     /// Nodes at exactly the same place as another.
     pub welded: usize,
     /// Nodes that no tetrahedron used.
@@ -120,6 +128,12 @@ impl fmt::Display for TetMend {
             }
         };
         say(self.turned, "tetrahedra turned right side out");
+        say(self.flat, "flat tetrahedra dropped");
+        let lifted = format!(
+            "flat tetrahedra mended (nodes moved by up to {:.1} % of their edges)",
+            100.0 * self.moved
+        );
+        say(self.lifted, &lifted);
         say(self.welded, "doubled nodes welded");
         say(self.unused, "unused nodes dropped");
         say(self.parted, "nodes doubled where parts touch at a point");
@@ -174,29 +188,19 @@ pub fn mend_tets(input: &TetInput) -> Result<MendedTets, TetInputError> {
         .iter()
         .map(|t| t.map(|v| same[v as usize]))
         .collect();
-    let at = |v: u32| input.positions[v as usize];
-    for (e, tet) in tets.iter_mut().enumerate() {
-        let signed = volume(tet.map(at));
-        let x = tet.map(at);
-        let longest = EDGES.iter().map(|&[i, j]| x[i].distance(x[j]));
-        let longest = longest.fold(0.0, f64::max);
-        if signed.is_nan() || signed.abs() <= FLAT * longest.powi(3) {
-            let element = number(input, e);
-            return Err(TetInputError::Flat {
-                element,
-                volume: signed,
-            });
-        }
-        if signed < 0.0 {
-            tet.swap(2, 3);
-            mend.turned += 1;
-        }
-    }
-    if let Some(e) = overfull_face(&tets) {
+    let mut positions = input.positions.clone();
+    let kept = mend_slivers(&mut positions, &mut tets, &mut mend);
+    let kept = kept.map_err(|TooMany { count, first }| TetInputError::Flat {
+        element: number(input, first.0),
+        volume: first.1,
+        count,
+        of: tets.len(),
+    })?;
+    if let Some(e) = overfull_face(&tets, &kept) {
         let element = number(input, e);
         return Err(TetInputError::SharedFace { element });
     }
-    let kept = largest_piece(input, &tets, &mut mend)?;
+    let kept = largest_piece(&positions, &tets, &kept, &mut mend)?;
     let mut number_of = vec![u32::MAX; input.positions.len()];
     for (tet, _) in tets.iter().zip(&kept).filter(|(_, kept)| **kept) {
         for &v in tet {
@@ -206,7 +210,7 @@ pub fn mend_tets(input: &TetInput) -> Result<MendedTets, TetInputError> {
     let mut body = TetBody::default();
     for (v, number) in number_of.iter_mut().enumerate().filter(|n| *n.1 == 0) {
         *number = body.positions.len() as u32;
-        body.positions.push(input.positions[v]);
+        body.positions.push(positions[v]);
     }
     let renumbered = tets.iter().zip(&kept).filter(|(_, kept)| **kept);
     body.tets = renumbered
@@ -295,9 +299,9 @@ fn doubles(positions: &[DVec3]) -> Vec<u32> {
 }
 
 /// A tetrahedron with a face that more than one other has.
-fn overfull_face(tets: &[[u32; 4]]) -> Option<usize> {
+fn overfull_face(tets: &[[u32; 4]], kept: &[bool]) -> Option<usize> {
     let mut faces: Vec<([u32; 3], u32)> = Vec::with_capacity(4 * tets.len());
-    for (e, tet) in tets.iter().enumerate() {
+    for (e, tet) in tets.iter().enumerate().filter(|(e, _)| kept[*e]) {
         faces.extend(FACES.iter().map(|face| {
             let mut key = face.map(|i| tet[i]);
             key.sort_unstable();
@@ -310,14 +314,17 @@ fn overfull_face(tets: &[[u32; 4]]) -> Option<usize> {
 }
 
 fn largest_piece(
-    input: &TetInput,
+    positions: &[DVec3],
     tets: &[[u32; 4]],
+    kept: &[bool],
     mend: &mut TetMend,
 ) -> Result<Vec<bool>, TetInputError> {
-    let (label, count) = pieces::label(tets);
+    let left = tets.iter().zip(kept).filter(|(_, kept)| **kept);
+    let left: Vec<[u32; 4]> = left.map(|(tet, _)| *tet).collect();
+    let (label, count) = pieces::label(&left);
     let mut volumes = vec![0.0; count];
-    for (tet, &l) in tets.iter().zip(&label) {
-        volumes[l as usize] += volume(tet.map(|v| input.positions[v as usize]));
+    for (tet, &l) in left.iter().zip(&label) {
+        volumes[l as usize] += volume(tet.map(|v| positions[v as usize]));
     }
     let largest = (0..count)
         .max_by(|&a, &b| volumes[a].total_cmp(&volumes[b]).then(b.cmp(&a)))
@@ -330,7 +337,9 @@ fn largest_piece(
         });
     }
     mend.dropped = count - 1;
-    Ok(label.iter().map(|&l| l as usize == largest).collect())
+    let mut labels = label.iter();
+    let mut is_of_largest = || labels.next().is_some_and(|&l| l as usize == largest);
+    Ok(kept.iter().map(|&kept| kept && is_of_largest()).collect())
 }
 
 /// Doubled nodes among those of the tetrahedra, and nodes of no tetrahedron; middles are neither.

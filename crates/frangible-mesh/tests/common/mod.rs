@@ -65,6 +65,22 @@ impl Solid for Block {
 /// the tetrahedra's volume (so that none overlap there), all are in one piece, and no dihedral angle is below 10°.
 /// Gives the Euler characteristic of the surface.
 pub(crate) fn check_sound(body: &TetBody) -> i64 {
+    for e in 0..body.tets.len() {
+        let (smallest, _) = frangible_mesh::quality::dihedral_range(body.corners(e));
+        assert!(
+            smallest >= 10.0,
+            "tetrahedron {e} has an angle of {smallest}°"
+        );
+    }
+    check_closed(body)
+}
+
+/// As [`check_sound`], with tetrahedra of any shape that have a volume.
+pub(crate) fn check_closed(body: &TetBody) -> i64 {
+    for e in 0..body.tets.len() {
+        let volume = frangible_mesh::quality::volume(body.corners(e));
+        assert!(volume > 0.0, "tetrahedron {e} has a volume of {volume}");
+    }
     let mut faces: Vec<[u32; 3]> = Vec::new();
     for &[a, b, c, d] in &body.tets {
         for mut face in [[b, c, d], [a, c, d], [a, b, d], [a, b, c]] {
@@ -107,13 +123,6 @@ pub(crate) fn check_sound(body: &TetBody) -> i64 {
         body.volume()
     );
 
-    for e in 0..body.tets.len() {
-        let (smallest, _) = frangible_mesh::quality::dihedral_range(body.corners(e));
-        assert!(
-            smallest >= 10.0,
-            "tetrahedron {e} has an angle of {smallest}°"
-        );
-    }
     let mut used: Vec<u32> = body.tets.iter().flatten().copied().collect();
     used.sort_unstable();
     used.dedup();
