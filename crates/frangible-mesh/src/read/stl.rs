@@ -49,11 +49,11 @@ fn looks_written(bytes: &[u8]) -> bool {
         .all(|&b| b >= b' ' && b != 0x7f || b.is_ascii_whitespace())
 }
 
-/// Count of facets where the header's is void: as many as there are bytes for.
+/// Count of facets where the header's is void or too small: as many as there are bytes for.
 fn counted(there: usize) -> Result<u32, ReadError> {
     check_triangles(there as u64)?;
     if there > 0 {
-        log::warn!("the binary STL does not count its facets; by its length it has {there}");
+        log::warn!("the binary STL miscounts its facets; by its length it has {there}");
     }
     Ok(there as u32)
 }
@@ -64,10 +64,18 @@ fn parse_binary(bytes: &[u8]) -> Result<InputMesh, ReadError> {
         .and_then(|count| count.try_into().ok())
         .ok_or_else(|| ReadError::truncated("the 84 bytes before the facets of a binary STL"))?;
     let there = (bytes.len() - HEADER) / FACET;
+    let is_whole = (bytes.len() - HEADER).is_multiple_of(FACET);
+    let is_padding = |count: u32| {
+        bytes[HEADER + FACET * count as usize..]
+            .iter()
+            .all(|&b| b == 0)
+    };
     let count = match u32::from_le_bytes(count) {
         // The writer did not come back to fill it in.
         VOID if there > 0 => counted(there)?,
         0 => counted(there)?,
+        // No writer adds whole facets behind those it counts, unless as padding.
+        count if is_whole && (count as usize) < there && !is_padding(count) => counted(there)?,
         count => count,
     };
     if (there as u64) < u64::from(count) {

@@ -135,7 +135,7 @@ fn text_stl_goes_by_words_not_lines() {
 }
 
 #[test]
-fn binary_stl_counts_by_its_length_where_its_count_is_void() {
+fn binary_stl_counts_by_its_length_where_its_count_is_wrong() {
     for header in [&b"by hand"[..], b"solid in truth binary", b"SOLID"] {
         let counted = |count: u32, tail: &[u8]| {
             let mut bytes = stl(header);
@@ -147,6 +147,8 @@ fn binary_stl_counts_by_its_length_where_its_count_is_void() {
             counted(0, b""),
             counted(u32::MAX, b""),
             counted(0, b"\n"),
+            counted(1, b""),
+            counted(4, &[0; 100]),
             counted(4, b"\0\0some bytes"),
             counted(4, &[0; 70]),
         ] {
