@@ -259,3 +259,32 @@ fn sparse_accessors_without_a_base_begin_at_nought() {
         "{wrong}"
     );
 }
+
+#[test]
+fn a_changed_byte_of_a_rare_file_is_an_error_or_another_mesh() {
+    let mut strips = strips_header("ascii", "int");
+    strips += &CORNERS.map(|[x, y, z]| format!("{x} {y} {z}\n")).concat();
+    strips += "0 5 1 0 2 3 1\n0 4 -1 0 1 3\n";
+    let mut uncounted = stl(b"solid");
+    uncounted[80] = 0;
+    for (format, bytes) in [
+        (MeshFormat::Ply, strips.into_bytes()),
+        (
+            MeshFormat::Stl,
+            stl_text().replace("\r\n", " ").into_bytes(),
+        ),
+        (MeshFormat::Stl, uncounted),
+        (MeshFormat::Obj, utf16(&obj(), true, true)),
+    ] {
+        for at in 0..bytes.len() {
+            for flip in [0x01, 0x55, 0x80, 0xff] {
+                let mut changed = bytes.clone();
+                changed[at] ^= flip;
+                if let Ok(mesh) = parse(format, &changed) {
+                    let there = mesh.positions.len() as u32;
+                    assert!(mesh.triangles.iter().flatten().all(|&v| v < there));
+                }
+            }
+        }
+    }
+}
