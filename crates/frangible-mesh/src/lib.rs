@@ -35,8 +35,8 @@ pub use input::{InputGroup, InputMaterial, InputMesh};
 pub use mend_tets::{MendedTets, NodeGroup, TetInputError, TetMend, mend_tets};
 #[cfg(feature = "mesh-io")]
 pub use read::{
-    MOST_BYTES, MOST_TRIANGLES, MeshFormat, ReadError, did_you_mean, nearest_file, nearest_name,
-    parse_mesh, parse_mesh_named, read_mesh,
+    MOST_BYTES, MOST_TRIANGLES, MeshFormat, ReadError, did_you_mean, is_address, nearest_file,
+    nearest_name, parse_mesh, parse_mesh_named, read_mesh,
 };
 #[cfg(feature = "mesh-io")]
 pub use read_tets::{TetFormat, parse_tetgen, parse_tets, read_tets};

@@ -57,6 +57,9 @@ impl Files {
                 given.ok_or_else(|| NOT_GIVEN.into())
             }
             Self::Disk => match fs::metadata(path) {
+                Err(_) if frangible_mesh::is_address(&path.to_string_lossy()) => {
+                    Err("this is an address, not a file; download it first".into())
+                }
                 Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
                     Err(match frangible_mesh::nearest_file(path) {
                         Some(name) => format!("there is no such file (did you mean `{name}`?)"),

@@ -100,7 +100,7 @@ pub fn parse_mesh(
 }
 
 /// Returns true for an address of the web, such as `https://example.org/a.glb`, and for those of other services.
-pub(crate) fn is_address(name: &str) -> bool {
+pub fn is_address(name: &str) -> bool {
     const SCHEMES: [&str; 4] = ["http", "https", "ftp", "s3"];
     // A scene's folder may have been put before it.
     let before = name.split_once(":/").map(|(before, _)| before);

@@ -262,6 +262,10 @@ fn files_that_are_no_scene_are_refused_with_their_path() {
     let cases = [
         (folder.join("absent.toml"), "there is no such file"),
         (folder.join("absent.obj"), "there is no such file"),
+        (
+            PathBuf::from("https://example.org/a.obj"),
+            "download it first",
+        ),
         (folder.clone(), "this is a folder"),
         (write("empty.toml", b""), "this file is empty"),
         (write("empty.stl", b""), "this file is empty"),
