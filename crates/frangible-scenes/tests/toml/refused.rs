@@ -263,7 +263,7 @@ fn files_that_are_no_scene_are_refused_with_their_path() {
         (folder.join("absent.toml"), "there is no such file"),
         (folder.join("absent.obj"), "there is no such file"),
         (
-            PathBuf::from("https://example.org/a.obj"),
+            std::path::PathBuf::from("https://example.org/a.obj"),
             "download it first",
         ),
         (folder.clone(), "this is a folder"),
