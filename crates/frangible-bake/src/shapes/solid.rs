@@ -64,6 +64,8 @@ pub(crate) fn ready(name: &str) -> Option<SolidShape> {
         "statuette" => Some(0.0059),
         "coffee_cup" => Some(0.005),
         "hammer_head" => Some(0.005),
+        "chandelier" | "candelabrum" => Some(0.01),
+        "coral" => Some(0.0107),
         _ => None,
     };
     let mut shape = SolidShape {

@@ -2,6 +2,10 @@
 //! face look along -y.
 
 mod brick;
+mod candelabrum;
+mod candle;
+mod chandelier;
+mod coral;
 mod cup;
 mod curve;
 mod hammer;
@@ -11,6 +15,9 @@ mod statuette;
 mod wine_glass;
 
 pub use brick::brick_solid;
+pub use candelabrum::candelabrum;
+pub use chandelier::chandelier;
+pub use coral::coral;
 pub use cup::coffee_cup;
 pub use hammer::hammer_head;
 pub use pig::piggy_bank;
@@ -21,7 +28,7 @@ pub use wine_glass::wine_glass;
 use crate::DistanceSolid;
 
 /// Names that [`ready_shape`] knows.
-pub const READY_SHAPES: [&str; 7] = [
+pub const READY_SHAPES: [&str; 10] = [
     "piggy_bank",
     "rabbit",
     "statuette",
@@ -29,6 +36,9 @@ pub const READY_SHAPES: [&str; 7] = [
     "brick_solid",
     "hammer_head",
     "wine_glass",
+    "chandelier",
+    "candelabrum",
+    "coral",
 ];
 
 /// The shape of that name, if it is one of [`READY_SHAPES`].
@@ -41,6 +51,9 @@ pub fn ready_shape(name: &str) -> Option<DistanceSolid> {
         "brick_solid" => Some(brick_solid()),
         "hammer_head" => Some(hammer_head()),
         "wine_glass" => Some(wine_glass()),
+        "chandelier" => Some(chandelier()),
+        "candelabrum" => Some(candelabrum()),
+        "coral" => Some(coral()),
         _ => None,
     }
 }

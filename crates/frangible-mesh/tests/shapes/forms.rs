@@ -15,7 +15,7 @@ struct Form {
     size: [f64; 3],
 }
 
-const FORMS: [Form; 7] = [
+const FORMS: [Form; 10] = [
     Form {
         name: "piggy_bank",
         volume: 314.6,
@@ -64,6 +64,27 @@ const FORMS: [Form; 7] = [
         holes: 0,
         thinnest: 2.0,
         size: [79.8, 79.8, 187.0],
+    },
+    Form {
+        name: "chandelier",
+        volume: 878.0,
+        holes: 0,
+        thinnest: 10.9,
+        size: [340.0, 340.0, 230.0],
+    },
+    Form {
+        name: "candelabrum",
+        volume: 524.0,
+        holes: 0,
+        thinnest: 10.0,
+        size: [301.5, 123.0, 330.5],
+    },
+    Form {
+        name: "coral",
+        volume: 244.0,
+        holes: 0,
+        thinnest: 4.7,
+        size: [202.0, 193.0, 170.5],
     },
 ];
 
