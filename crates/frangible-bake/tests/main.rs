@@ -3,6 +3,7 @@
 mod asset_file;
 mod bake;
 mod blow;
+mod branches;
 mod cancel;
 mod clipped_render;
 mod common;
