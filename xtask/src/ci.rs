@@ -303,7 +303,13 @@ fn clippy() -> Result<Vec<String>> {
 fn tests() -> Result<Vec<String>> {
     let mut command = cargo(&["xtask", "test"]);
     println!("$ {}", shown(&command));
-    let lines = run_keeping(&mut command, |line| line.contains("test result:"))?;
+    let keep = |line: &str| line.contains("test result:") || line.ends_with("... FAILED");
+    let lines = run_keeping(&mut command, keep).map_err(|error| {
+        let lines = error
+            .lines()
+            .filter(|line| !line.contains("test result: ok"));
+        lines.collect::<Vec<_>>().join("\n")
+    })?;
     let passed: u32 = lines.iter().filter_map(|line| passed_tests(line)).sum();
     Ok(vec![format!("{passed} tests passed")])
 }

@@ -14,7 +14,7 @@ use crate::meshes::out;
 pub struct ColliderDetail {
     /// Convex parts of a whole body at most, 1 or more, and points of each. 1 part is the convex hull. Default 12 and 48.
     pub whole: (usize, usize),
-    /// The same for a fragment that one hull does not fit. Default 4 and 24. A fragment that is held has its own surface.
+    /// Limits for the hulls of a fragment that one hull does not fit. Default 4 and 24. A fragment that is held has its own surface.
     pub fragment: (usize, usize),
     /// A fragment gets one hull where hull volume / its volume is at most this. Default 1.5.
     pub hull_volume_ratio: f64,

@@ -8,14 +8,14 @@ use frangible::internals::blow::Blow;
 use frangible::internals::contact::modal_load;
 use frangible::internals::stress::{Symmetric3, largest_eigenvalue, largest_eigenvalue_bound};
 use frangible::{Asset, Breakable, Contact, FractureConfig, Material, Striker};
-use frangible_bake::{BakeSpec, Shape, bake};
+use frangible_bake::{BakeSpec, Shape, bake, stress_rows};
 
 type Failure = Box<dyn std::error::Error>;
 
 /// Numbers of modes that are followed.
 const FOLLOWED: [usize; 5] = [20, 50, 100, 200, 400];
 
-/// How far the region of the contact and that of the root reach, m.
+/// Radii of the region about the contact and of that about the root of the branch, m.
 const NEAR: f32 = 0.02;
 const ROOT: f32 = 0.025;
 
@@ -25,7 +25,7 @@ const PLACES: usize = 250;
 /// Most times that are looked at.
 const TIMES: usize = 1500;
 
-/// Where a body is hit, in the frame of its shape, m; the direction of the force; and where the struck branch begins.
+/// Place of a hit in the frame of the shape, m, direction of its force, and root of the struck branch.
 struct Hit {
     name: &'static str,
     at: Vec3,
@@ -76,10 +76,10 @@ fn measure(subject: &Subject, kept: usize, counts: &[usize]) -> Result<(), Failu
         asset.modes.frequency(kept - 1),
         report.followed
     );
-    let twelve: Vec<String> = (0..kept)
+    let frequencies: Vec<String> = (0..kept)
         .map(|i| format!("{:.0}", asset.modes.frequency(i)))
         .collect();
-    println!("Hz: {}", twelve.join(" "));
+    println!("Hz: {}", frequencies.join(" "));
     println!(
         "| hit | ball | modes | anywhere | contact | root | without: anywhere | contact | root |"
     );
@@ -143,7 +143,7 @@ fn balls() -> Result<[(&'static str, Striker, f32); 2], Failure> {
     ])
 }
 
-/// What a blow does: largest tension anywhere, at the contact and at the root, Pa; largest force, N; duration, s.
+/// Results of a blow: largest tension anywhere, at the contact and at the root, Pa; largest force, N; duration, s.
 struct Found {
     most: [f64; 3],
     force: f64,
@@ -176,36 +176,10 @@ fn places(asset: &Asset, contact: Vec3, root: Vec3) -> Vec<Place> {
     taken.sort_unstable();
     taken.dedup();
     let place = |tet: u32| Place {
-        rows: rows(asset, tet),
+        rows: stress_rows(asset, tet as usize),
         within: [true, near(tet, contact, NEAR), near(tet, root, ROOT)],
     };
     taken.into_iter().map(place).collect()
-}
-
-/// Stress of each mode at the middle of a tetrahedron, Pa per m·√kg.
-fn rows(asset: &Asset, tet: u32) -> [Vec<f32>; 6] {
-    let point = &asset.embedding.tets[tet as usize];
-    let element = point.element as usize;
-    let gradients = point.shape_gradients(&asset.analysis.barycentric_gradients[element]);
-    let count = asset.modes.count();
-    let (lambda, mu) = (
-        asset.material.lame_lambda() as f32,
-        asset.material.shear_modulus() as f32,
-    );
-    let mut rows: [Vec<f32>; 6] = std::array::from_fn(|_| vec![0.0; count]);
-    for (&node, g) in asset.analysis.elements[element].iter().zip(gradients) {
-        let [x, y, z] = asset.modes.rows(node as usize);
-        for i in 0..count {
-            let u = Vec3::new(x[i], y[i], z[i]);
-            let volume = lambda * u.dot(g);
-            for axis in 0..3 {
-                rows[axis][i] += volume + 2.0 * mu * u[axis] * g[axis];
-                let next = (axis + 1) % 3;
-                rows[3 + axis][i] += mu * (u[axis] * g[next] + u[next] * g[axis]);
-            }
-        }
-    }
-    rows
 }
 
 /// The blow with so many modes followed, the rest static or left out.

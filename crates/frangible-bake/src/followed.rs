@@ -4,8 +4,8 @@
 //! no time steps. So the number depends on the blow. A hard one is assumed: a steel ball of a tenth of the body's mass
 //! with a radius of 10 mm at 5 m/s, Hertz' duration on a flat place, a half-sine of force inwards along the normal. A softer or
 //! slower one lasts longer, and needs fewer.
-//! A body with [branches](has_branches) is hit by a ball of a tenth of a branch: what answers at its end is the branch and not the body, and
-//! a lighter ball is faster than more of its modes. Of twelve arms, twelve modes are one bending of each.
+//! A body with [branches](has_branches) is hit by a ball of a tenth of a branch: the branch and not the body resists at its end, so
+//! that the contact is shorter and excites more modes. Of twelve arms, twelve modes are one bending of each.
 //!
 //! [`CONTACTS`] places, spread over the surface as far from one another as can be, are hit one by one. Of each, the largest
 //! principal tension over a sample of tetrahedra and over time is found with the lowest N modes followed, for a ladder of N. The
@@ -70,7 +70,10 @@ pub(crate) fn followed(asset: &Asset) -> usize {
     let contacts = spread(asset);
     let pulse = Pulse::new(asset);
     let own = sample(asset, &contacts);
-    let rows: Vec<Rows> = own.iter().map(|&t| stress_rows(asset, t)).collect();
+    let rows: Vec<Rows> = own
+        .iter()
+        .map(|&t| stress_rows(asset, asset.surface.tets[t] as usize))
+        .collect();
     let peaks: Vec<Vec<f32>> = contacts
         .iter()
         .map(|&at| peaks(asset, at, &pulse, &own, &rows, &ladder))
@@ -159,7 +162,7 @@ fn left_out(asset: &Asset, triangle: usize) -> f32 {
     wall.map_or(0.0, |wall| NEAR * wall.thickness as f32)
 }
 
-/// Whether the body is made of branches: no shell, and far lighter than the box of its material with the same moments of inertia.
+/// Returns true if the body is made of branches: no shell, and far lighter than the box of its material with the same moments of inertia.
 fn has_branches(asset: &Asset) -> bool {
     let (mass, inertia) = (&asset.mass, asset.mass.inertia);
     let trace = inertia.x_axis.x + inertia.y_axis.y + inertia.z_axis.z;
@@ -231,8 +234,9 @@ impl Pulse {
 /// Stress of each mode at a point, Pa per m·√kg: one row of modes for each of xx, yy, zz, xy, yz, zx.
 type Rows = [Vec<f32>; 6];
 
-fn stress_rows(asset: &Asset, triangle: usize) -> Rows {
-    let tet = asset.surface.tets[triangle] as usize;
+/// Stress of each mode in the middle of a fracture tetrahedron.
+#[must_use]
+pub fn stress_rows(asset: &Asset, tet: usize) -> Rows {
     let point = &asset.embedding.tets[tet];
     let element = point.element as usize;
     let gradients = point.shape_gradients(&asset.analysis.barycentric_gradients[element]);

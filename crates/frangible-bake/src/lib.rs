@@ -67,6 +67,9 @@ pub mod weakness;
 pub use bake::{BakeSpec, bake};
 pub use cancel::CancelToken;
 pub use error::BakeError;
+#[cfg(feature = "solver")]
+#[doc(hidden)]
+pub use followed::stress_rows;
 pub use frangible::internals::asset::{RescaleError, scaled, with_material};
 pub use frangible_mesh;
 pub use groups::Group;

@@ -96,6 +96,18 @@ mod tests {
     const PRINTED: &str = "scene   pane\nfragments  12 (largest 3 g)\nwrote out/pane.glb\n";
 
     #[test]
+    fn the_snippet_of_the_readme_is_a_doctest() {
+        let readme = include_str!("../../../README.md");
+        let (_, rest) = readme.split_once("```rust\n").expect("a snippet");
+        let (snippet, _) = rest.split_once("```").expect("its end");
+        let tested = include_str!("../../../crates/frangible-bake/src/lib.rs");
+        let tested = tested.lines().filter_map(|line| line.strip_prefix("//!"));
+        let tested: Vec<&str> = tested.map(str::trim).collect();
+        let untested = snippet.lines().find(|line| !tested.contains(&line.trim()));
+        assert_eq!(untested, None);
+    }
+
+    #[test]
     fn shown_lines_occur_in_their_order() {
         assert_eq!(
             absent(&[(1, "scene   pane"), (2, "…"), (3, "wrote …glb")], PRINTED),

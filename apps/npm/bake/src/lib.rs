@@ -139,7 +139,7 @@ pub mod bindings {
     /// Bakes a mesh; `numbers`: size, wall, tetrahedra, modes; `tell(stage, share)` meanwhile.
     ///
     /// # Errors
-    /// The same as [`bake`](super::bake), and a name that no material has.
+    /// Errors of [`bake`](super::bake), and a name that no material has.
     #[wasm_bindgen]
     pub fn bake(
         positions: &[f32],

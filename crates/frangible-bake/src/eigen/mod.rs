@@ -135,7 +135,7 @@ pub fn lowest_modes(
 /// The lowest modes of a body that is held. Shapes have an entry for every unknown, zero where it is held.
 ///
 /// # Errors
-/// As [`lowest_modes`], and [`BakeError::AllHeld`] when nothing is left to move.
+/// Errors of [`lowest_modes`], and [`BakeError::AllHeld`] if nothing is left to move.
 pub fn lowest_supported_modes(
     system: &System,
     constraints: &Constraints,
@@ -149,7 +149,7 @@ pub fn lowest_supported_modes(
 /// shapes may be a few per cent. Their bits are the same on every machine.
 ///
 /// # Errors
-/// As [`lowest_supported_modes`]; a residual counts as too large only above a tenth.
+/// Errors of [`lowest_supported_modes`]; a residual counts as too large only above a tenth.
 pub fn quick_modes(
     system: &System,
     constraints: &Constraints,

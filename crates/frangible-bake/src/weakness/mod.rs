@@ -27,7 +27,7 @@ pub fn from_patches(asset: &Asset, patches: &[Patch]) -> Result<Fields, InputErr
 /// Fields with patches over those given, see [`from_patches`].
 ///
 /// # Errors
-/// As [`from_patches`].
+/// Errors of [`from_patches`].
 pub fn patched(mut fields: Fields, asset: &Asset, patches: &[Patch]) -> Result<Fields, InputError> {
     patches.iter().try_for_each(|p| p.zone.check())?;
     if patches.is_empty() {
@@ -48,7 +48,7 @@ pub fn patched(mut fields: Fields, asset: &Asset, patches: &[Patch]) -> Result<F
 /// `factors` gives the factors that the colour, or other value, of a vertex stands for, by the vertex's number.
 ///
 /// # Errors
-/// As [`Fields::from_surface`].
+/// Errors of [`Fields::from_surface`].
 pub fn from_vertices(
     asset: &Asset,
     positions: &[Vec3],

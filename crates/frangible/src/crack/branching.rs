@@ -61,7 +61,7 @@ pub(super) fn forks(
     let n = cut.tet as usize;
     let crack = &system.cracks[front.crack as usize];
     let place = crossing_middle(&mesh.corners(n), &cut.values);
-    let (run, since) = latest(crack, place);
+    let (run, since) = nearest_start(crack, place);
     let material = &system.asset.material;
     let free = f64::from(run) / (speed * material.rayleigh_speed());
     if run < APART * system.edge || cut.time - since > SLOWEST * free {
@@ -124,7 +124,7 @@ fn turned(v: Vec3, axis: Vec3, angle: f32) -> Vec3 {
 }
 
 /// Distance of a place from the nearest point where its crack started or forked, m, and the time of that, s.
-pub(super) fn latest(crack: &Crack, place: Vec3) -> (f32, f64) {
+pub(super) fn nearest_start(crack: &Crack, place: Vec3) -> (f32, f64) {
     let start = (crack.frame.origin, crack.elements[0].time);
     let distances = std::iter::once(&start).chain(&crack.forks);
     let nearest = distances.map(|&(from, time)| (from.distance(place), time));

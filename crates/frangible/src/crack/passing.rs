@@ -10,7 +10,7 @@
 
 use glam::Vec3;
 
-use super::branching::{APART, Fork, latest, nearest};
+use super::branching::{APART, Fork, nearest, nearest_start};
 use super::felt::SAME_FACE;
 use super::field::StressField;
 use super::single::{ElementCut, Front};
@@ -30,7 +30,7 @@ pub(super) fn passes(
     let apart = APART * system.edge;
     let thickness = field.wall(from.tet as usize)?.thickness();
     // Fronts of the crack meet the other one all through the wall; one of them goes on.
-    if latest(&system.cracks[front.crack as usize], place).0 < apart.max(thickness) {
+    if nearest_start(&system.cracks[front.crack as usize], place).0 < apart.max(thickness) {
         return None;
     }
     let other = system.fractured_by[front.tet as usize];

@@ -16,7 +16,7 @@ pub(crate) use symmetric::symmetric;
 /// Method of summation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Sums {
-    /// As fast as this machine can.
+    /// The widest instructions of this machine: fastest, with its own rounding.
     Fast,
     /// With the same bits everywhere.
     Portable,

@@ -77,7 +77,7 @@ impl Cover {
     /// thread alone, since pieces are covered side by side.
     ///
     /// # Errors
-    /// As [`Cover::new`].
+    /// Errors of [`Cover::new`].
     pub fn of_joined(
         body: &BodyMesh,
         faces: &[[u32; 2]],
