@@ -14,7 +14,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let asked: Vec<String> = std::env::args().skip(1).collect();
     let wanted = |name: &&&str| asked.is_empty() || asked.iter().any(|a| a == **name);
     println!("{HEAD}");
-    let (mut problems, mut blows) = (Vec::new(), Vec::new());
+    let (mut problems, mut blows, mut shares) = (Vec::new(), Vec::new(), Vec::new());
     for name in SCENE_NAMES.iter().filter(wanted) {
         let mut scene = scene(name)?;
         scene.duration = scene.duration.min(LONGEST);
@@ -27,6 +27,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             if record.generation == 0 {
                 println!("{}", Row::of(record).text(name, cause(record)));
                 blows.extend(blow(name, record));
+                shares.extend(share(name, record));
             } else {
                 again.add(&Row::of(record));
                 count += 1;
@@ -40,6 +41,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
     }
     println!("\n{FOOT}\n\n{BLOWS}\n{}", blows.join("\n"));
+    println!("\n{SHARES}\n{}", shares.join("\n"));
     if problems.is_empty() {
         Ok(())
     } else {
@@ -76,6 +78,47 @@ restitution; negative where cracks cut the wall out and the striker went on into
 
 | scene | approach, m/s | lasted, µs | Hertz, µs | force, N | impulse, N·s | departure over approach |
 |---|---:|---:|---:|---:|---:|---:|";
+
+const SHARES: &str = "## The blows' energy
+
+Energy that the contacts of these blows brought into the body, and what became of it, until they parted.
+
+- *Into the body*: work of the contacts on its vibration and its pieces, friction included: force times displacement, summed over the substeps.
+- *Damped*: taken by the material's damping.
+- *Faces*: lost where faces of pieces closed and pressed on each other.
+- *Partings*: lost when pieces parted. Pieces that are too small to move on their own lose their motion.
+- *Pieces*: kinetic energy of the pieces against the rigid motion of the whole body, in the end.
+- *Ringing*: the rest of the energy when the contacts parted, as vibration and strain. Cracks are paid from it.
+- *Not closed*: the work less all of these. Each of them is found on its own, so this is the error of the integration and of the sums.
+
+| scene | approach, J | crushing, J | into the body, J | damped | faces | partings | pieces | ringing | not closed |
+|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|";
+
+/// What became of a blow's energy.
+fn share(name: &str, b: &BreakRecord) -> Option<String> {
+    let r = &b.report;
+    let energy = r.blow_energy;
+    let crushing: f64 = r.contacts.iter().map(|c| c.crushing_energy).sum();
+    let of_work =
+        |energy: f64, digits: usize| format!("{:.digits$} %", 100.0 * energy / r.blow_energy.work);
+    (energy.work > 0.0).then(|| {
+        format!(
+            "| {name} | {} | {} | {} | {} | {} | {} | {} | {} | {} |",
+            short(r.approach_energy),
+            short(crushing),
+            short(energy.work),
+            of_work(energy.damped, 1),
+            of_work(energy.faces, 1),
+            of_work(energy.released, 1),
+            of_work(energy.pieces, 1),
+            of_work(energy.kept - energy.pieces, 1),
+            of_work(
+                energy.work - energy.damped - energy.faces - energy.released - energy.kept,
+                2
+            ),
+        )
+    })
+}
 
 /// The blow of a break, if it was one.
 fn blow(name: &str, b: &BreakRecord) -> Option<String> {

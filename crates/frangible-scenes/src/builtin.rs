@@ -24,7 +24,7 @@ enum Action {
 }
 
 /// Names of the built-in scenes; the first is the default.
-pub const SCENE_NAMES: [&str; 25] = [
+pub const SCENE_NAMES: [&str; 26] = [
     "glass",
     "pane",
     "plate",
@@ -46,6 +46,7 @@ pub const SCENE_NAMES: [&str; 25] = [
     "bottle",
     "bulb",
     "statue",
+    "chandelier",
     "phone",
     "tiles",
     "windscreen",
@@ -238,6 +239,7 @@ pub fn scene(name: &str) -> Result<Scene, SceneError> {
         "bottle" => showpieces::bottle(),
         "bulb" => showpieces::bulb(),
         "statue" => showpieces::statue(),
+        "chandelier" => showpieces::chandelier(),
         "phone" => sheets::phone(),
         "tiles" => sheets::tiles(),
         "windscreen" => sheets::windscreen(),

@@ -93,6 +93,24 @@ pub(crate) fn statue() -> Result<Scene, SceneError> {
     ))
 }
 
+/// A chandelier of glass that falls from a low ceiling, on the ends of its arms.
+pub(crate) fn chandelier() -> Result<Scene, SceneError> {
+    let source = BodySource::Ready {
+        name: "chandelier".into(),
+        resolution: None,
+    };
+    let chandelier = BodySpec {
+        modes: 200,
+        rotation: tilted(60.0),
+        ..body("chandelier", source, "glass")?
+    };
+    Ok(dropped(
+        chandelier,
+        "a glass chandelier of twelve arms that falls on the ends of its arms",
+        0.5,
+    ))
+}
+
 /// A bulb 60 mm across and 95 mm long with an open neck; its wall of 1 mm is about twice as thick as a real one's.
 fn bulb_shape() -> Shape {
     let station = |outer: [f64; 2], inner: [f64; 2]| Station::smooth(outer, inner);

@@ -35,6 +35,11 @@ fn breaks_make_no_energy() {
             );
             assert_eq!(b.energy_created(), None, "{name}");
             assert!(b.energy_paid <= r.fracture_energy);
+            // Work, losses and what is left are summed each on its own.
+            let e = r.blow_energy;
+            let open = e.work - e.damped - e.faces - e.released - e.kept;
+            println!("of {:.5} J brought in {open:.6} J are not closed", e.work);
+            assert!(open.abs() <= 0.015 * e.work, "{name}: {e:?}");
             broke += 1;
         }
     }

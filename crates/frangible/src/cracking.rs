@@ -159,6 +159,7 @@ impl<'a> Cracking<'a> {
             let start = Instant::now();
             blow.end_contacts(&mut self.motion);
             report.contacts = blow.reports();
+            report.blow_energy = blow.accounts();
             report.contact_duration = blow.duration();
             report.time_steps = self.motion.steps();
             report.timings.response += start.elapsed().as_secs_f64();

@@ -313,6 +313,7 @@ fn integrated(
     report.time_step = blow.time_step();
     report.time_steps = blow.motion.steps();
     report.contacts = blow.reports();
+    report.blow_energy = blow.accounts();
     let modal_impulse = blow.modal_impulse();
     report.most_excited_frequency =
         contact::most_excited_mode(asset, &modal_impulse).map_or(0.0, |i| asset.modes.frequency(i));

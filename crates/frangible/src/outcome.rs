@@ -145,8 +145,29 @@ pub struct ImpactReport {
     pub arrivals: Vec<Vec<(u32, f64)>>,
     /// Report of each contact, where the blow was integrated.
     pub contacts: Vec<ContactReport>,
+    /// Energy that the blow brought into the body, where the blow was integrated.
+    pub blow_energy: BlowEnergy,
     /// Wall-clock time of each stage.
     pub timings: StageTimings,
+}
+
+/// Energy that a blow brings into a body, and what becomes of it, J. The work less what damping takes is kept: as strain and vibration, and as motion
+/// of pieces.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct BlowEnergy {
+    /// Work of the contacts on the vibration of the body and on its pieces, friction included.
+    pub work: f64,
+    /// Energy that damping takes while contacts push.
+    pub damped: f64,
+    /// Energy that the faces of pieces lose when they close and press while contacts push.
+    pub faces: f64,
+    /// Energy that is lost when pieces part while contacts push: of those that are too small, by then, to move on their own.
+    pub released: f64,
+    /// Energy of the vibration and of the pieces when the contacts part.
+    pub kept: f64,
+    /// Kinetic energy of the pieces that have parted, against the rigid motion of the whole body, at the end.
+    pub pieces: f64,
 }
 
 /// Wall-clock times of the stages of one impact, s. Not deterministic; all else is.

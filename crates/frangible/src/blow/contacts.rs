@@ -181,6 +181,25 @@ impl Contacts {
         any
     }
 
+    /// Parts pieces, so that no gap jumps where the piece under a contact is too small by now, and moves with what is beside it.
+    pub(super) fn carry(
+        &mut self,
+        setup: Setup<'_>,
+        flight: &mut Flight,
+        part: impl FnOnce(&mut Flight),
+    ) {
+        let ways = |flight: &Flight| -> Vec<f64> {
+            let contacts = 0..self.deeper.len();
+            contacts.map(|k| flight.gap_now(setup, k)).collect()
+        };
+        let before = ways(flight);
+        part(flight);
+        let changes = before.iter().zip(ways(flight));
+        let changes: Vec<f64> = changes.map(|(before, after)| before - after).collect();
+        let deeper = self.deeper.iter_mut().zip(changes);
+        deeper.for_each(|(deeper, change)| *deeper += change);
+    }
+
     /// Returns true if any striker approaches the rigid motion of the body; scripts do not count.
     pub(super) fn approach(&self, plan: &Plan) -> bool {
         let mut sites = plan.sites.iter().zip(&self.speeds);

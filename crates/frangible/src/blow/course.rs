@@ -48,7 +48,7 @@ pub struct Blow {
     /// Softening of the body under the contacts by cracks.
     softer: Vec<Softening>,
     /// Partings of pieces, in the order of time.
-    parted: Vec<Parted>,
+    pub(super) parted: Vec<Parted>,
     /// Motion of the body over time.
     pub(crate) motion: Motion,
 }

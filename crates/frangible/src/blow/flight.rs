@@ -55,11 +55,14 @@ struct Lane {
     force: Vec<f64>,
     /// Kind of its pushes: 0 with friction, 1 without.
     pushes: usize,
-    /// True for each corner that presses.
+    /// True for each corner that presses, now and in the tick before.
     press: Vec<bool>,
+    pressed: Vec<bool>,
     /// Gap at which each corner closes, m: 0, or the negative gap that it had when its face came about. So pieces that slide along a rough face are
     /// not pushed apart by the parts that it is cut into.
     closed: Vec<f64>,
+    /// Energy that faces have lost by pressing on each other, and that partings have set free, J.
+    lost: [f64; 2],
     solver: Solver,
 }
 
@@ -69,6 +72,7 @@ impl Lane {
     fn settle(&mut self, parted: &Parted, plan: &Plan, bank: &Bank, gone_on: &[Option<usize>]) {
         self.solver.solve(&self.given, &mut self.middle);
         self.given.copy_from_slice(&self.middle);
+        self.pressed.clone_from(&self.press);
         self.gaps.clear();
         let corners = parted.corners.iter().zip(&self.closed);
         self.gaps.extend(corners.map(|(corner, closed)| {
@@ -105,6 +109,22 @@ impl Lane {
             self.solver.answer(parted, plan, bank, gone_on);
         }
     }
+
+    /// Adds what the faces lose in a tick: the work of the corners' forces, which act as they are at its end, less the energy of their springs.
+    fn lose(&mut self, parted: &Parted) {
+        let corners = parted.corners.iter().zip(&self.closed);
+        let states = self.pressed.iter().zip(&self.press);
+        for ((corner, closed), (&before, &now)) in corners.zip(states) {
+            if !before && !now {
+                continue;
+            }
+            let first = corner.gap(&self.at) - closed;
+            let last = 2.0 * corner.gap(&self.middle) - corner.gap(&self.at) - closed;
+            let held = |press: bool, gap: f64| if press { 0.5 * gap * gap } else { 0.0 };
+            let given = if now { last * (last - first) } else { 0.0 };
+            self.lost[0] += corner.stiffness * (given + held(before, first) - held(now, last));
+        }
+    }
 }
 
 impl Flight {
@@ -120,7 +140,9 @@ impl Flight {
             force: vec![0.0; plan.modes],
             pushes,
             press: Vec::new(),
+            pressed: Vec::new(),
             closed: Vec::new(),
+            lost: [0.0; 2],
             solver: Solver::default(),
         };
         let felt = (plan.felt_first > 0).then_some((1, plan.felt_first));
@@ -143,9 +165,22 @@ impl Flight {
         setup.parted.get(self.partings.checked_sub(1)?)
     }
 
+    /// Returns true if pieces part in this substep.
+    #[inline(always)]
+    pub(super) fn is_due(&self, setup: Setup<'_>, substep: usize) -> bool {
+        let next = setup.parted.get(self.partings);
+        next.is_some_and(|parted| parted.substep <= substep)
+    }
+
     /// Parts the pieces that are due by now: `due` returns true for these.
-    pub(super) fn part(&mut self, setup: Setup<'_>, due: impl Fn(&Parted) -> bool) {
+    pub(super) fn part(
+        &mut self,
+        setup: Setup<'_>,
+        state: &BankState,
+        due: impl Fn(&Parted) -> bool,
+    ) {
         while let Some(parted) = setup.parted.get(self.partings).filter(|p| due(p)) {
+            let before = self.energy(setup, state);
             let known = self.parted(setup);
             let n = parted.unknowns();
             for lane in &mut self.lanes {
@@ -165,6 +200,8 @@ impl Flight {
             }
             self.partings += 1;
             self.gone_on.fill(None);
+            let free = before - self.energy(setup, state);
+            self.lanes[0].lost[1] += free;
         }
     }
 
@@ -271,6 +308,17 @@ impl Flight {
         2.0 * dot(z, &lane.middle) - dot(z, &lane.at)
     }
 
+    /// Displacement of the body under a contact by the pieces now, along its push with friction, m.
+    pub(super) fn way(&self, setup: Setup<'_>, contact: usize) -> f64 {
+        let parted = self.parted(setup);
+        parted.map_or(0.0, |parted| {
+            let mut pushes = parted.pushes(0, &self.gone_on);
+            pushes
+                .nth(contact)
+                .map_or(0.0, |z| dot(z, &self.lanes[0].at))
+        })
+    }
+
     /// Displacement of a contact by the pieces now, m.
     pub(super) fn gap_now(&self, setup: Setup<'_>, contact: usize) -> f64 {
         let parted = self.parted(setup);
@@ -300,10 +348,16 @@ impl Flight {
 
     /// Ends the tick, over which the forces have grown by `growth`, N.
     #[inline(always)]
-    pub(super) fn end(&mut self, state: &mut BankState, bank: &Bank, growth: &[f64]) {
-        if !self.is_on() {
+    pub(super) fn end(
+        &mut self,
+        setup: Setup<'_>,
+        state: &mut BankState,
+        bank: &Bank,
+        growth: &[f64],
+    ) {
+        let Some(parted) = self.parted(setup) else {
             return;
-        }
+        };
         for lane in &mut self.lanes {
             let by_rate = 4.0 / lane.solver.tick;
             for (answer, &growth) in lane.solver.answers.iter().zip(growth) {
@@ -312,6 +366,7 @@ impl Flight {
                     bank.hold(state, lane.first, &answer.force, growth);
                 }
             }
+            lane.lose(parted);
             for ((at, rate), middle) in lane.at.iter_mut().zip(&mut lane.rate).zip(&lane.middle) {
                 *rate = by_rate * (middle - *at) - *rate;
                 *at = 2.0 * middle - *at;
@@ -361,6 +416,18 @@ impl Flight {
             });
         let strain = 0.5 * (change + pressed.sum::<f64>());
         [strain + 0.5 * moved.sum::<f64>(), strain]
+    }
+
+    /// Energy that the pieces add to that of the modes, J.
+    fn energy(&self, setup: Setup<'_>, state: &BankState) -> f64 {
+        let mut elastic = Vec::new();
+        self.elastic(setup, state, &mut elastic);
+        self.energies(setup, state, &elastic)[0]
+    }
+
+    /// Energy that faces have lost so far by pressing on each other, and that partings have set free, J.
+    pub(super) fn lost(&self) -> [f64; 2] {
+        self.lanes[0].lost
     }
 
     /// Velocity and angular velocity of each group but the reference, relative to the rigid motion of the whole body, m/s and rad/s.

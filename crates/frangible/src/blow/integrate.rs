@@ -3,6 +3,7 @@
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 
+use super::accounts::Accounts;
 use super::bank::{Bank, BankState, Pushes, dot, padded};
 use super::contacts::Contacts;
 use super::flight::{Flight, Setup};
@@ -46,6 +47,7 @@ pub(super) struct Progress {
     pub(super) state: BankState,
     pub(super) contacts: Contacts,
     pub(super) flight: Flight,
+    pub(super) accounts: Accounts,
     /// Number of time steps so far, and of substeps in those with contacts.
     pub(super) step: usize,
     pub(super) substep: usize,
@@ -107,6 +109,7 @@ impl Run<'_> {
             state,
             contacts,
             flight,
+            accounts,
             substep,
             open,
             at_parting,
@@ -116,7 +119,12 @@ impl Run<'_> {
         let most_open = (OPEN * shortest / contacts.dt).min(MOST_SUBSTEPS as f64) as usize;
         for _ in 0..plan.substeps {
             let t = (*substep + 1) as f64 * contacts.dt;
-            flight.part(setup, |p| p.substep <= *substep);
+            if flight.is_due(setup, *substep) {
+                contacts.carry(setup, flight, |flight| {
+                    flight.part(setup, state, |p| p.substep <= *substep);
+                });
+                accounts.rebase(setup, (state, flight), &contacts.forces);
+            }
             flight.begin(setup, state, &plan.fine, contacts.dt);
             plan.fine.coast(state, &pushes, &contacts.forces);
             flight.foresee(setup, state, &plan.fine, &contacts.forces);
@@ -130,8 +138,9 @@ impl Run<'_> {
             }
             contacts.grow();
             plan.fine.grow(state, &pushes, &contacts.growth);
-            flight.end(state, &plan.fine, &contacts.growth);
+            flight.end(setup, state, &plan.fine, &contacts.growth);
             contacts.advance(plan);
+            accounts.add_work(setup, (state, flight), &contacts.forces);
             self.record.forces.extend_from_slice(&contacts.forces);
             *substep += 1;
             if at_parting.is_some() {
@@ -145,6 +154,7 @@ impl Run<'_> {
             if *open > 0 && comes && *open >= most_open {
                 // The pieces under the strikers have flown off: the strikers meet what is beside these.
                 if contacts.go_on(setup, state, flight, *substep) {
+                    accounts.rebase(setup, (state, flight), &contacts.forces);
                     *open = 0;
                 }
             }
@@ -221,7 +231,7 @@ impl Run<'_> {
                     step,
                     ..
                 } = &mut *self.progress;
-                flight.part(setup, |p| p.step <= *step);
+                flight.part(setup, state, |p| p.step <= *step);
                 if flight.is_on() {
                     let (ticks, bank) = finer.get_or_insert_with(|| ticks(plan, length));
                     let tick = length / *ticks as f64;
@@ -229,7 +239,7 @@ impl Run<'_> {
                         flight.begin(setup, state, bank, tick);
                         bank.coast(state, &Pushes::NONE, &[]);
                         flight.foresee(setup, state, bank, &[]);
-                        flight.end(state, bank, &[]);
+                        flight.end(setup, state, bank, &[]);
                     }
                 } else {
                     bank.coast(state, &Pushes::NONE, &[]);
@@ -244,7 +254,14 @@ impl Run<'_> {
     #[inline(always)]
     fn sample(&mut self, near: bool) {
         let (setup, plan) = (self.setup, self.setup.plan);
-        let Progress { state, flight, .. } = &*self.progress;
+        let Progress {
+            state,
+            flight,
+            accounts,
+            contacts,
+            after,
+            ..
+        } = &mut *self.progress;
         let record = &mut *self.record;
         flight.elastic(setup, state, &mut record.elastic);
         let elastic = record.elastic.iter().map(|&q| q as f32);
@@ -253,8 +270,8 @@ impl Run<'_> {
             let swing = &state.x[plan.modes..plan.own];
             record.swing.extend(swing.iter().map(|&x| x as f32));
         }
-        let forces: &[f64] = match self.progress.after {
-            None => &self.progress.contacts.forces,
+        let forces: &[f64] = match after {
+            None => &contacts.forces,
             Some(_) => &[],
         };
         let count = forces.len();
@@ -265,6 +282,14 @@ impl Run<'_> {
             }
         }
         let [whole, strain] = of_body(setup, flight, state, &record.elastic);
+        if count > 0 {
+            accounts.add_losses(
+                setup,
+                (state, flight),
+                &record.elastic,
+                [whole + held, strain + held],
+            );
+        }
         record.energies.push([whole + held, strain + held]);
         self.motion.take_energies(whole + held, strain + held);
     }
@@ -285,6 +310,7 @@ impl Progress {
             state: BankState::rest(plan.oscillators.len()),
             contacts: Contacts::new(plan),
             flight: Flight::new(plan),
+            accounts: Accounts::default(),
             step: 0,
             substep: 0,
             open: 0,

@@ -43,6 +43,7 @@
 //! Forces are linear over substeps of a hundredth of Hertz' time (a four-hundredth where both bodies vibrate), every oscillator is stepped
 //! exactly, and one equation per contact and substep has one root. Steps after the blow are as long as the modes allow.
 
+mod accounts;
 mod apart;
 mod bank;
 mod contacts;

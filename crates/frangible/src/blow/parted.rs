@@ -232,6 +232,15 @@ impl Parted {
         self.centres.iter().zip(drifts).map(motion).collect()
     }
 
+    /// Kinetic energy of the groups but the reference, with these velocities and angular velocities, J.
+    pub(super) fn kinetic_energy(&self, drifts: &[[DVec3; 2]]) -> f64 {
+        let groups = self.masses.iter().zip(drifts);
+        let of = |((mass, inertia), [v, w]): (&(f64, DMat3), &[DVec3; 2])| {
+            0.5 * (mass * v.length_squared() + w.dot(*inertia * *w))
+        };
+        groups.map(of).sum()
+    }
+
     /// Moves the nodes under contacts that have gone on before substep `until` to the nearest nodes of the groups that they have gone on to.
     pub(super) fn go_on(
         &self,

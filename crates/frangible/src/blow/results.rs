@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use super::Blow;
 use crate::contact::{ContactReport, Pulse};
+use crate::outcome::BlowEnergy;
 
 impl Blow {
     /// Modal impulses of the contacts, N·s/√kg, as prescribed impulses have them.
@@ -65,6 +66,13 @@ impl Blow {
             self.progress.at_parting.map_or(0.0, |[of_body, _]| of_body),
             0.5 * mass * (before * before - after * after),
         ]
+    }
+
+    /// What became of the contacts' work on the body.
+    pub(crate) fn accounts(&self) -> BlowEnergy {
+        let parted = self.parted.last();
+        let pieces = parted.map_or(0.0, |parted| parted.kinetic_energy(&self.drifts()));
+        self.progress.accounts.report(pieces)
     }
 
     /// Energy of the modes and wall oscillators of breakable strikers when the contact parts, J.

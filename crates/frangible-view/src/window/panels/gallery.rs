@@ -9,12 +9,13 @@ macro_rules! picture {
 }
 
 /// Scene and PNG; just after the break, from the pictures of the gallery.
-const PICTURES: [(&str, &[u8]); 25] = [
+const PICTURES: [(&str, &[u8]); 26] = [
     picture!("bottle"),
     picture!("bowl"),
     picture!("brick"),
     picture!("bulb"),
     picture!("cantilever"),
+    picture!("chandelier"),
     picture!("chocolate"),
     picture!("crockery"),
     picture!("five-blows"),
