@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
-/// Breaks things where and as hard as they are hit.
+/// Simulates brittle fracture: how a body breaks depends on where and how hard it is hit.
 ///
-/// Without a command, drops the default scene's glass: the same as `frangible break`.
+/// Without a command, runs `frangible break` on the default scene, which drops a drinking glass.
 #[derive(Debug, Parser)]
 #[command(name = "frangible", version, args_conflicts_with_subcommands = true)]
 pub(crate) struct Cli {
@@ -19,19 +19,19 @@ pub(crate) struct Cli {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// Break a scene, a mesh or a baked body; write the animation (GLB), its sound (WAV) and a contact sheet (PNG)
+    /// Break a scene, a mesh or a baked body, and write an animation (GLB), its sound (WAV) and a contact sheet (PNG)
     Break(Box<BreakCommand>),
-    /// Bake a mesh, or the body of a scene, into a file that breaks without waiting
+    /// Bake a mesh, or the body of a scene, into a file that `frangible break` loads without precomputation
     Bake(BakeArgs),
-    /// Show how a body vibrates: table of its modes, picture of their shapes coloured by stress (PNG), files for ParaView (VTU)
+    /// List the vibration modes of a body, draw the mode shapes coloured by stress (PNG), and export them to ParaView (VTU)
     Modes(ModesArgs),
-    /// Film a break in slow motion, or the microseconds in which it happens (GIF, MP4, single pictures)
+    /// Film a break in slow motion, or the stress waves and cracks of its first microseconds (GIF, MP4, WebP, separate pictures)
     Film(Box<FilmArgs>),
-    /// Open a window: throw things, turn the model's knobs, look into the last contact; takes a build with `--features view`
+    /// Open the interactive viewer: throw things, adjust the model's parameters, inspect the last contact; requires a build with `--features view`
     View(ViewArgs),
-    /// List the built-in scenes and materials, or print one scene as a file to start from
+    /// List the built-in scenes and materials, or print one scene as a template for a scene file
     Scenes {
-        /// Scene to print as TOML; saved, and given to `break`, it does the same
+        /// Scene to print as TOML; saved to a file and passed to `break`, it plays the same scene
         name: Option<String>,
     },
 }
@@ -42,15 +42,15 @@ pub(crate) struct ViewArgs {
     #[arg(value_name = "SCENE|FILE")]
     pub(crate) what: Option<String>,
 
-    /// Give the commands of this file, one per line, instead of a person's; the clock stands, and the window closes at the end
+    /// Run the commands in this file, one per line, instead of interactive input; simulated time advances only on command, and the window closes at the end
     #[arg(long, value_name = "FILE", conflicts_with = "what")]
     pub(crate) script: Option<PathBuf>,
 
-    /// Folder for what is saved: files of keys and buttons, and relative names in scripts
+    /// Folder for files saved with keys and buttons, and for relative file names in scripts
     #[arg(long, value_name = "DIR", default_value = "out")]
     pub(crate) shots: PathBuf,
 
-    /// Size of the window, pixels
+    /// Size of the window in pixels
     #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "1280x800", value_parser = parse_size)]
     pub(crate) size: [u32; 2],
 }
@@ -61,22 +61,22 @@ pub(crate) struct FilmArgs {
     #[arg(value_name = "FILE", conflicts_with = "scene")]
     pub(crate) file: Option<PathBuf>,
 
-    /// The microseconds of the first break: tension as colour on the body, and the cracks that it drives, each when it runs; takes a build with
-    /// `--features view`
+    /// Film the first microseconds of the first break: tensile stress as colour on the body, and each crack as it grows; requires a build
+    /// with `--features view`
     #[arg(long, conflicts_with = "slow")]
     pub(crate) microseconds: bool,
 
-    /// Film to write: .gif, .mp4 (which takes the program ffmpeg), .webp (in a build with `--features view`), or a folder of pictures [default:
-    /// out/NAME.gif]. An MP4 has its sound
-    /// track, the others a WAV beside them; slowed down, the sound is as much deeper
+    /// Film to write: .gif, .mp4 (requires the program ffmpeg), .webp (requires a build with `--features view`), or a folder for separate
+    /// pictures [default: out/NAME.gif]. An MP4 contains the sound track; the other formats get a separate WAV file. Slow motion lowers the
+    /// pitch of the sound by the same factor
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
 
-    /// Follow light for each picture, as stills do: seconds per picture. A build without `--features view` always does
+    /// Path-trace each picture, like a still, which takes seconds per picture; always on in a build without `--features view`
     #[arg(long, conflicts_with = "microseconds")]
     pub(crate) traced: bool,
 
-    /// Leave the sound out
+    /// Write no sound
     #[arg(long)]
     pub(crate) no_sound: bool,
 
@@ -98,7 +98,7 @@ pub(crate) struct FilmArgs {
     )]
     pub(crate) rate: f64,
 
-    /// How many times slower than it is the break is shown
+    /// Slow-motion factor: show the break this many times slower than real time
     #[arg(
         long,
         value_name = "TIMES",
@@ -107,7 +107,7 @@ pub(crate) struct FilmArgs {
     )]
     pub(crate) slow: f64,
 
-    /// Size of the pictures, pixels
+    /// Size of the pictures in pixels
     #[arg(long = "frame", value_name = "WIDTHxHEIGHT", default_value = "640x480", value_parser = parse_frame)]
     pub(crate) frame: [u32; 2],
 
@@ -145,7 +145,7 @@ fn parse_size(text: &str) -> Result<[u32; 2], String> {
 
 fn parse_seed(text: &str) -> Result<u64, String> {
     text.parse()
-        .map_err(|_| format!("a seed is a whole number, 0 to {}", u64::MAX))
+        .map_err(|_| format!("the seed must be a whole number from 0 to {}", u64::MAX))
 }
 
 #[derive(Args, Clone, Debug)]
@@ -158,22 +158,22 @@ pub(crate) struct BreakCommand {
     pub(crate) args: BreakArgs,
 }
 
-/// Settings for making a body from a mesh file.
+/// Options for making a body from a mesh file.
 #[derive(Args, Clone, Debug, Default)]
 pub(crate) struct MeshArgs {
-    /// Longest side of a mesh's or a baked body in metres [default: the file's unit is the metre]
+    /// Length of the longest side of a mesh or baked body, in metres [default: the size in the file, read as metres]
     #[arg(long, value_name = "METRES", allow_hyphen_values = true)]
     pub(crate) size: Option<f64>,
 
-    /// Tetrahedra that carry cracks, about [default: the scene's own, or 42000]
+    /// Approximate number of tetrahedra in the fracture mesh [default: the scene's own, or 42000]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub(crate) resolution: Option<i64>,
 
-    /// Make a wall of this thickness, in metres, along the mesh's surface, half on each side, instead of filling its inside
+    /// Make a wall of this thickness, in metres, centred on the mesh's surface, instead of a solid body
     #[arg(long, value_name = "METRES", allow_hyphen_values = true)]
     pub(crate) wall: Option<f64>,
 
-    /// Which axis of the file is up: x, y or z [default: z in STL, PLY and tetrahedra, else y]
+    /// Axis of the file that points up: x, y or z [default: z for STL, PLY and tetrahedral meshes, otherwise y]
     #[arg(long, value_name = "AXIS")]
     pub(crate) up: Option<String>,
 }
@@ -188,11 +188,11 @@ pub(crate) struct BakeArgs {
     )]
     pub(crate) file: Option<PathBuf>,
 
-    /// Built-in scene whose body to bake instead
+    /// Bake the body of this built-in scene instead of a file
     #[arg(long, value_name = "NAME")]
     pub(crate) scene: Option<String>,
 
-    /// File to write, ending in .frangible
+    /// File to write; its name must end in .frangible
     #[arg(short, long, value_name = "FILE.frangible")]
     pub(crate) output: PathBuf,
 
@@ -204,17 +204,17 @@ pub(crate) struct BakeArgs {
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub(crate) modes: Option<i64>,
 
-    /// How many of them a blow follows through time; the rest answer it at once [default: found by trial on the body]
+    /// Number of modes integrated through time during a blow; the rest respond statically [default: chosen by a trial blow on the body]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub(crate) followed: Option<i64>,
 
-    /// Mode shapes in half precision: a smaller file; the report tells what it changes
+    /// Store the mode shapes in half precision to make the file smaller; the report states the change of the stresses
     #[arg(long)]
     pub(crate) compact: bool,
 
-    /// Hold a part of the body, which stays where it is, also after the break: below:z:0.01, above:x:0.3 (m, in the
-    /// frame of its shape; in a mesh that was read y is up), box:x,y,z,x,y,z, sphere:x,y,z,r or group:NAME; @xy holds it along x and y only. Repeat it for
-    /// several, for example --support below:x:0.01 --support group:frame@z
+    /// Fix a part of the body in place, before and after the break: below:z:0.01, above:x:0.3, box:x,y,z,x,y,z,
+    /// sphere:x,y,z,r or group:NAME, in m in the coordinates of the shape (y is up in a mesh that was read); append @xy to fix x and y only. Repeat
+    /// the option for several supports, for example --support below:x:0.01 --support group:frame@z
     #[arg(long = "support", value_name = "SPEC", allow_hyphen_values = true)]
     pub(crate) supports: Vec<String>,
 
@@ -232,15 +232,15 @@ pub(crate) struct ModesArgs {
     )]
     pub(crate) file: Option<PathBuf>,
 
-    /// Built-in scene whose body to look at instead
+    /// Analyse the body of this built-in scene instead of a file
     #[arg(long, value_name = "NAME")]
     pub(crate) scene: Option<String>,
 
-    /// Picture to write, ending in .png [default: out/NAME-modes.png]
+    /// Picture to write; its name must end in .png [default: out/NAME-modes.png]
     #[arg(short, long, value_name = "FILE.png", conflicts_with = "no_pictures")]
     pub(crate) output: Option<PathBuf>,
 
-    /// How many modes to draw and to list, 1 to 36
+    /// Number of modes to draw and list, 1 to 36
     #[arg(
         long,
         value_name = "N",
@@ -249,11 +249,11 @@ pub(crate) struct ModesArgs {
     )]
     pub(crate) modes: i64,
 
-    /// Write the elements that carry the modes, with all shapes and stresses, ending in .vtu
+    /// File for the analysis mesh with all mode shapes and stresses; its name must end in .vtu
     #[arg(long, value_name = "FILE.vtu")]
     pub(crate) vtu: Option<PathBuf>,
 
-    /// Write the mesh that carries cracks, which is the body's own shape, with the same fields, ending in .vtu
+    /// File for the fracture mesh, which follows the body's own shape, with the same fields; its name must end in .vtu
     #[arg(long, value_name = "FILE.vtu")]
     pub(crate) fracture_vtu: Option<PathBuf>,
 
@@ -265,7 +265,7 @@ pub(crate) struct ModesArgs {
     #[arg(long)]
     pub(crate) json: bool,
 
-    /// No picture
+    /// Write no picture
     #[arg(long)]
     pub(crate) no_pictures: bool,
 
@@ -273,7 +273,7 @@ pub(crate) struct ModesArgs {
     pub(crate) mesh: MeshArgs,
 }
 
-/// Scene to play: the body that breaks, and the blow that breaks it.
+/// Scene to play: the body and the blow that it takes.
 #[derive(Args, Clone, Debug)]
 pub(crate) struct SceneArgs {
     /// Built-in scene; `frangible scenes` lists them [default: glass]
@@ -284,11 +284,11 @@ pub(crate) struct SceneArgs {
     #[arg(long, value_name = "M")]
     pub(crate) material: Option<String>,
 
-    /// Drop the body so that its lowest point starts HEIGHT metres above the floor
+    /// Drop the body, with its lowest point starting HEIGHT metres above the floor
     #[arg(long, value_name = "HEIGHT", conflicts_with_all = ["ball", "at", "toward"], allow_hyphen_values = true)]
     pub(crate) drop: Option<f64>,
 
-    /// Throw a ball instead: mass in kg, radius in m, speed in m/s, and its material [default: steel]
+    /// Throw a ball at the body: mass in kg, radius in m, speed in m/s and material [default: steel]
     #[arg(
         long,
         value_name = "MASS,RADIUS,SPEED[,MATERIAL]",
@@ -296,7 +296,7 @@ pub(crate) struct SceneArgs {
     )]
     pub(crate) ball: Option<String>,
 
-    /// Point the ball is aimed at, with --ball: x,y,z in m from the body's centre of mass, y up [default: 0,0,0]
+    /// Point at which the ball is aimed, with --ball: x,y,z in m from the body's centre of mass, y up [default: 0,0,0]
     #[arg(
         long,
         value_name = "x,y,z",
@@ -305,7 +305,7 @@ pub(crate) struct SceneArgs {
     )]
     pub(crate) at: Option<String>,
 
-    /// Direction of the ball's flight, with --ball: x,y,z, any length [default: 0,0,-1]
+    /// Direction in which the ball flies, with --ball: x,y,z, of any length [default: 0,0,-1]
     #[arg(
         long,
         value_name = "x,y,z",
@@ -314,7 +314,7 @@ pub(crate) struct SceneArgs {
     )]
     pub(crate) toward: Option<String>,
 
-    /// Seed of the weak points and of the cracks' roughness [default: the scene's own]
+    /// Random seed for the weak points and the roughness of the cracks [default: the scene's own]
     #[arg(long, value_name = "N", value_parser = parse_seed, allow_negative_numbers = true)]
     pub(crate) seed: Option<u64>,
 
@@ -322,13 +322,13 @@ pub(crate) struct SceneArgs {
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub(crate) modes: Option<i64>,
 
-    /// Let pieces break again, and their pieces, up to N breaks; 0: pieces stay as they are [default: the scene's own]
+    /// Let pieces break again, up to N generations; 0 keeps the pieces of the first break whole [default: the scene's own]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=20))]
     pub(crate) generations: Option<u32>,
 
-    /// Hold a part of the body, which stays where it is, also after the break: below:z:0.01, above:x:0.3 (m, in the
-    /// frame of its shape; in a mesh that was read y is up), box:x,y,z,x,y,z, sphere:x,y,z,r or group:NAME; @xy holds it along x and y only. Repeat it for
-    /// several, for example --support below:x:0.01 --support group:frame@z
+    /// Fix a part of the body in place, before and after the break: below:z:0.01, above:x:0.3, box:x,y,z,x,y,z,
+    /// sphere:x,y,z,r or group:NAME, in m in the coordinates of the shape (y is up in a mesh that was read); append @xy to fix x and y only. Repeat
+    /// the option for several supports, for example --support below:x:0.01 --support group:frame@z
     #[arg(long = "support", value_name = "SPEC", allow_hyphen_values = true)]
     pub(crate) supports: Vec<String>,
 
@@ -341,11 +341,11 @@ pub(crate) struct BreakArgs {
     #[command(flatten)]
     pub(crate) scene: SceneArgs,
 
-    /// Folder for the results, made when it is missing
+    /// Folder for the results, created if it does not exist
     #[arg(long, default_value = "out", value_name = "DIR")]
     pub(crate) out: PathBuf,
 
-    /// Break with N seeds, from --seed on, and show them in one sheet, to choose a good one
+    /// Break with N consecutive seeds, starting at --seed, and draw the results on one sheet for comparison
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub(crate) contact_sheet: Option<i64>,
 
@@ -353,11 +353,11 @@ pub(crate) struct BreakArgs {
     #[arg(long)]
     pub(crate) json: bool,
 
-    /// No pictures (GLB, sound and report only)
+    /// Write no pictures, only the GLB, the sound and the report
     #[arg(long)]
     pub(crate) no_pictures: bool,
 
-    /// No sound (no WAV)
+    /// Write no sound (WAV)
     #[arg(long)]
     pub(crate) no_sound: bool,
 }
