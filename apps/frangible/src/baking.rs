@@ -23,7 +23,7 @@ pub(crate) fn run(args: &BakeArgs) -> Result<(), Box<dyn Error>> {
     if !matches!(FileKind::of(&args.output), Ok(FileKind::Asset)) {
         let given = args.output.display();
         return Err(format!(
-            "-o is `{given}`; the file of a baked body must end in .frangible, by which `frangible break` knows it"
+            "-o is `{given}`; the name of a baked body's file must end in .frangible"
         )
         .into());
     }
@@ -49,7 +49,7 @@ pub(crate) fn run(args: &BakeArgs) -> Result<(), Box<dyn Error>> {
         let (asset, change) = compacted(&body.asset);
         if change > MOST_CHANGE {
             return Err(format!(
-                "half precision would change the peak stress of a mode of `{}` by {:.0} %, as it does where walls are thin; leave out --compact",
+                "half precision would change the peak stress of a mode of `{}` by {:.0} %, as happens where walls are thin; remove --compact",
                 body.asset.name,
                 100.0 * change
             )
@@ -68,7 +68,7 @@ pub(crate) fn run(args: &BakeArgs) -> Result<(), Box<dyn Error>> {
     text += &row(
         "wrote",
         &format!(
-            "{}, {:.1} MB; in memory the modes take {:.1} MB",
+            "{}, {:.1} MB; the modes take {:.1} MB in memory",
             args.output.display(),
             1e-6 * std::fs::metadata(&args.output).map_or(0, |m| m.len()) as f64,
             1e-6 * shapes
@@ -113,7 +113,7 @@ fn quality(body: &BakedBody, seconds: f64) -> String {
         row(
             "modes",
             format!(
-                "{} kept, from {first:.0} Hz (residual {:.0e}); a blow follows {}, up to {:.0} Hz",
+                "{} kept, from {first:.0} Hz (residual {:.0e}); {} integrated through time, up to {:.0} Hz",
                 report.modes,
                 report.max_residual,
                 report.followed,
@@ -122,7 +122,7 @@ fn quality(body: &BakedBody, seconds: f64) -> String {
         );
         if asset.is_supported() {
             let share = asset.supported.len() as f64 / report.fracture.nodes as f64;
-            row("held", format!("{:.1} % of the nodes", 100.0 * share));
+            row("supports", format!("{:.1} % of the nodes", 100.0 * share));
         }
         row("collider", format!("{} convex cells", report.cells));
         let stages: Vec<String> = report

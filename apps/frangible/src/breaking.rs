@@ -71,7 +71,7 @@ pub(crate) fn run(file: Option<&Path>, args: &BreakArgs) -> Result<(), Box<dyn E
         stages.push(("GLB".into(), 1e3 * clock.elapsed().as_secs_f64()));
     }
     if let Some(name) = wav {
-        bar.show(&format!("{}: sounding", scene.name), 1.0);
+        bar.show(&format!("{}: synthesising sound", scene.name), 1.0);
         let sounded = sound(run, &scene, &sound_config(run, &scene))?;
         write(name, &sounded.wav()?)?;
         stages.push(("sound".into(), 1e3 * sounded.seconds.iter().sum::<f64>()));
@@ -135,7 +135,7 @@ fn missed(run: &Run) -> Option<String> {
         return None;
     }
     Some(format!(
-        "what was thrown met no body in the {:.2} s of the run; aim it with --at and --toward (in a scene file: `at` and `toward`)",
+        "no projectile hit a body in the {:.2} s of the run; aim with --at and --toward (in a scene file: `at` and `toward`)",
         run.simulated
     ))
 }
@@ -144,17 +144,17 @@ fn missed(run: &Run) -> Option<String> {
 fn sound_notes(sounded: &Sounded) -> Vec<String> {
     let (report, mut notes) = (&sounded.report, Vec::new());
     if sounded.loudest() == 0.0 {
-        notes.push("the sound is silent, because nothing was struck".into());
+        notes.push("the sound is silent because nothing was struck".into());
     } else {
         notes.push(format!(
-            "the sound's largest sample stands for {:.0} dB",
+            "the loudest sample of the sound corresponds to {:.0} dB",
             sounded.peak_level()
         ));
     }
     let left_out = report.strikes_left_out;
     if left_out + report.over_budget > 0 {
         notes.push(format!(
-            "the sound leaves out {left_out} strikes and {} tones, the softest, because there were too many at once",
+            "the sound omits the softest {left_out} strikes and {} tones because too many sounded at once",
             report.over_budget
         ));
     }
@@ -170,7 +170,7 @@ fn mesh_notes(scene: &Scene, baked: &[BakedBody]) -> Vec<String> {
         };
         if mesh.pieces > 1 {
             notes.push(format!(
-                "{}: {} loose {} left out, {:.2} % of its volume",
+                "{}: {} disconnected {} left out, {:.2} % of the volume",
                 body.name,
                 mesh.pieces - 1,
                 if mesh.pieces == 2 { "piece" } else { "pieces" },
@@ -179,7 +179,7 @@ fn mesh_notes(scene: &Scene, baked: &[BakedBody]) -> Vec<String> {
         }
         if mesh.features.not_snapped * 10 > mesh.features.sharp {
             notes.push(format!(
-                "{}: {} of {} places that bend sharply are rounded off; a higher --resolution keeps more",
+                "{}: {} of {} sharp edges and corners are rounded off; raise --resolution to keep more of them",
                 body.name, mesh.features.not_snapped, mesh.features.sharp
             ));
         }
@@ -193,7 +193,7 @@ pub(crate) fn filled(open: &[bool], baked: &[BakedBody]) -> Vec<String> {
     open.map(|(_, body)| {
         let asset = &body.asset;
         format!(
-            "{}: the surface is open and is filled as a solid of {:.3} kg; for a thin wall, give its thickness with --wall METRES",
+            "{}: the surface is open and was filled as a solid of {:.3} kg; for a thin-walled body, give the wall thickness with --wall METRES",
             asset.name, asset.mass.mass
         )
     })
@@ -216,7 +216,7 @@ fn crowded_flaws(spec: &BodySpec, baked: &BakedBody) -> Option<String> {
     let spacing = material.weak_point_spacing();
     (depth > spacing).then(|| {
         format!(
-            "{}: at the strength of `{}` a weak point is a flaw of {:.1} mm, and weak points lie {:.1} mm apart; a weibull_modulus of 6 lets few of them be that weak",
+            "{}: at the strength of `{}` a weak point is a flaw of {:.1} mm, but weak points lie only {:.1} mm apart; with weibull_modulus = 6, few of them are that weak",
             baked.asset.name,
             material.name,
             1e3 * depth,

@@ -17,7 +17,7 @@ use crate::request::scene_of;
 use crate::say::say;
 use crate::soundtrack::soundtrack;
 
-const NO_RENDERER: &str = "--microseconds takes a build with the renderer: cargo run --release --features view -- film --microseconds";
+const NO_RENDERER: &str = "--microseconds requires a build with the renderer: cargo run --release --features view -- film --microseconds";
 
 pub(crate) fn run(args: &FilmArgs) -> Result<(), Box<dyn Error>> {
     check("--seconds", args.seconds, [0.2, 120.0])?;
@@ -34,7 +34,7 @@ pub(crate) fn run(args: &FilmArgs) -> Result<(), Box<dyn Error>> {
         .unwrap_or_else(|| PathBuf::from("out").join(format!("{}{name}", scene.name)));
     let format = FilmFormat::of(&path).ok_or_else(|| {
         format!(
-            "`{}` is no film that can be written; name a file .gif, .webp or .mp4, or a folder of pictures",
+            "cannot write the film `{}`: its format is unknown; name a .gif, .webp or .mp4 file, or a folder for separate pictures",
             path.display()
         )
     })?;
@@ -162,6 +162,6 @@ fn slow_motion(
     if args.no_sound {
         return Ok(None);
     }
-    bar.show(&format!("{}: listening", scene.name), 1.0);
+    bar.show(&format!("{}: synthesising sound", scene.name), 1.0);
     soundtrack(&run, scene, &clock, args.seconds).map(Some)
 }

@@ -1,4 +1,4 @@
-//! `frangible`: breaks things from the command line. A library, so that the wheel for Python has the same commands.
+//! `frangible`: breaks things from the command line. A library, so that the Python wheel offers the same commands.
 
 mod args;
 mod baking;
@@ -29,7 +29,7 @@ use frangible_scenes::FileKind;
 use args::{Cli, Command};
 pub use support::parse_support;
 
-/// A file given where a command should stand.
+/// The file name that was given in place of a command.
 fn file_without_command(error: &clap::Error) -> Option<&str> {
     if error.kind() != ErrorKind::InvalidSubcommand {
         return None;
@@ -58,7 +58,8 @@ fn of_the_lab(words: &[String]) -> Option<String> {
     Some(words.collect::<Vec<_>>().join(" "))
 }
 
-/// Runs a command line, whose first word is the program's name. Returns the exit status: 0, 1 after a failure, 2 if the words mean nothing.
+/// Runs a command line, whose first word is the program's name. Returns the exit status: 0 on success, 1 after a failure, 2 if the command
+/// line is invalid.
 #[must_use]
 pub fn run(words: &[OsString]) -> u8 {
     let texts: Vec<String> = (words.iter().skip(1))
@@ -66,7 +67,7 @@ pub fn run(words: &[OsString]) -> u8 {
         .collect();
     if let Some(new) = of_the_lab(&texts) {
         eprintln!(
-            "error: `frangible {}` is a command of the laboratory: cargo run --release -p frangible-lab -- {new}",
+            "error: `frangible {}` has moved to frangible-lab; run: cargo run --release -p frangible-lab -- {new}",
             texts[0]
         );
         return 2;
@@ -76,7 +77,7 @@ pub fn run(words: &[OsString]) -> u8 {
         Err(error) => {
             if let Some(file) = file_without_command(&error) {
                 eprintln!(
-                    "error: `{file}` is no command; to break that file: frangible break {file:?}"
+                    "error: `{file}` is not a command; to break that file, run: frangible break {file:?}"
                 );
                 return 2;
             }

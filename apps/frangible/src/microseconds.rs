@@ -31,16 +31,16 @@ pub(crate) fn microseconds(
     let [width, height] = args.frame;
     let raster = Raster::new(width, height)?;
     let found = first_break(scene, baked, &mut |done| {
-        bar.show(&format!("{}: until it breaks", scene.name), done);
+        bar.show(&format!("{}: simulating up to the first break", scene.name), done);
     })?;
     let Some(found) = found else {
-        return Err("nothing breaks in this scene, so there are no microseconds to film; hit it harder (--drop, --ball)".into());
+        return Err("nothing breaks in this scene, so there is nothing to film; hit the body harder (--drop, --ball)".into());
     };
     let still = ((END * args.rate) as usize).max(1);
     let count = args.pictures();
     let moments = count.saturating_sub(still).max(2);
     let wave = found.wave(moments, &mut |done| {
-        bar.show(&format!("{}: the wave", scene.name), done);
+        bar.show(&format!("{}: computing the stress wave", scene.name), done);
     })?;
     let most = f64::from(wave.quantile(WITHIN)).max(wave.strength);
     let view = nearer(found.stills(&[&[]], 0.0)[0].camera);
@@ -77,13 +77,13 @@ fn surface_at(wave: &Wave, moment: usize, most: f64, name: &str) -> ColoredSurfa
         values: now.tension.iter().map(value).collect(),
         lines: wave.cuts[..so_far].iter().map(line).collect::<Vec<_>>(),
         captions: vec![
-            format!("{name}: {:.0} µs after the touch", 1e6 * now.time),
+            format!("{name}: {:.0} µs after contact", 1e6 * now.time),
             format!("force {:.0} N", now.force),
         ],
         legend: [
             "0".into(),
             format!("{:.0} MPa", 1e-6 * most),
-            format!("tension (it may tear from {:.0} MPa)", 1e-6 * wave.strength),
+            format!("tension (cracks can start at {:.0} MPa)", 1e-6 * wave.strength),
         ],
     }
 }

@@ -34,7 +34,7 @@ pub(crate) fn picture(
         columns,
         look_from,
         legend: vec![
-            "Von Mises stress, as a share of what 99 % of the surface's nodes stay below".into(),
+            "Von Mises stress over its 99th percentile at the surface nodes".into(),
             format!(
                 "Largest displacement drawn as {:.0} % of the body's diagonal",
                 100.0 * EXAGGERATION
@@ -48,7 +48,7 @@ pub(crate) fn picture(
 /// Without the feature there are none.
 #[cfg(not(feature = "view"))]
 pub(crate) fn picture(_: &Asset, _: usize, _: Quat, _: Vec3) -> Result<Vec<u8>, Box<dyn Error>> {
-    Err("shapes of vibration are drawn by a build with `--features view`; --vtu writes them for ParaView".into())
+    Err("drawing mode shapes requires a build with `--features view`; --vtu writes them for ParaView".into())
 }
 
 /// A mode on the outer surface, turned as its scene turns it.

@@ -85,7 +85,7 @@ impl ModeReport {
         };
         row("body", format!("{}, {}", self.name, self.material));
         row("mass", format!("{:.4} kg", self.mass_kg));
-        row("held", self.held());
+        row("supports", self.supports());
         let (first, last) = (self.frequencies_hz.first(), self.frequencies_hz.last());
         if let (Some(first), Some(last)) = (first, last) {
             let residual = self
@@ -117,11 +117,11 @@ impl ModeReport {
             let overdamped = self.damping_ratios.iter().filter(|&&z| z >= 1.0).count();
             let _ = writeln!(
                 text,
-                "  and {} more; overdamped in all: {overdamped} (--json lists every one)",
+                "  and {} more; overdamped in total: {overdamped} (--json lists them all)",
                 self.modes - listed
             );
         }
-        text += "  per mm of the mode's largest displacement; the strength is reached when that moves so far\n\n";
+        text += "  stress per mm of the mode's largest displacement; last column: the largest displacement at which the stress reaches the strength\n\n";
         for (name, list) in [("wrote", &self.files), ("note", &self.notes)] {
             for value in list {
                 let _ = writeln!(text, "  {name:<15} {value}");
@@ -130,14 +130,14 @@ impl ModeReport {
         text
     }
 
-    fn held(&self) -> String {
+    fn supports(&self) -> String {
         let motions = |count: usize| match count {
-            0 => "no rigid motion left".to_string(),
-            1 => "one rigid motion left, not listed".to_string(),
-            n => format!("{n} rigid motions left, not listed"),
+            0 => "no rigid-body mode left".to_string(),
+            1 => "one rigid-body mode left, not listed".to_string(),
+            n => format!("{n} rigid-body modes left, not listed"),
         };
         match (self.supported, self.rigid_motions) {
-            (false, _) => "nowhere: free, its six rigid motions not listed".into(),
+            (false, _) => "none: the body is free, its six rigid-body modes are not listed".into(),
             (true, None) => format!("at {} nodes", self.supported_nodes),
             (true, Some(n)) => format!("at {} nodes, {}", self.supported_nodes, motions(n)),
         }

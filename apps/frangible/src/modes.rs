@@ -54,7 +54,7 @@ pub(crate) fn run(args: &ModesArgs) -> Result<(), Box<dyn Error>> {
         }
     }
     if args.vtu.is_some() && args.vtu == args.fracture_vtu {
-        return Err("--vtu and --fracture-vtu name the same file; they need one each".into());
+        return Err("--vtu and --fracture-vtu name the same file; give each its own".into());
     }
     let scene = body_with_modes(args)?;
     let [spec] = &scene.bodies[..] else {

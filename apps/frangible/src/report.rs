@@ -148,7 +148,7 @@ impl Impact {
 
     fn contact_in_words(&self) -> String {
         if self.time_steps == 0 {
-            return "not followed, because a bound showed that it can do nothing".into();
+            return "not simulated, because a bound on the stress rules out any crack".into();
         }
         format!(
             "{:.3} ms (Hertz on a rigid body: {:.3} ms), {} steps of {:.2} µs",
@@ -167,9 +167,9 @@ impl Impact {
         };
         let weakest = self.strength_pa / 1e6;
         let margin = self.margin.map_or(String::new(), |margin| {
-            format!("; margin at least {margin:.2}, at the point nearest to its own strength")
+            format!("; strength over stress at least {margin:.2} at the most critical point")
         });
-        format!("{largest}, the weakest point bears {weakest:.1} MPa{margin}")
+        format!("{largest}, the weakest point withstands {weakest:.1} MPa{margin}")
     }
 }
 
@@ -257,7 +257,7 @@ impl BodyReport {
         row(
             "mesh",
             format!(
-                "{} tetrahedra for cracks, {} quadratic ones for the modes ({} nodes)",
+                "{} tetrahedra for cracks, {} quadratic elements for the modes ({} nodes)",
                 self.fracture_tets, self.analysis_elements, self.analysis_nodes
             ),
         );
@@ -269,7 +269,7 @@ impl BodyReport {
         row(
             "modes",
             format!(
-                "{}, {} of them followed, from {} … Hz{}",
+                "{}, {} of them integrated through time, from {} … Hz{}",
                 self.modes,
                 self.modes_followed,
                 frequencies.join(", "),
@@ -308,7 +308,7 @@ impl BodyReport {
             row(
                 "cracks",
                 format!(
-                    "{}, {:.1} cm², {:.3} J, at {} weak points to start from",
+                    "{}, {:.1} cm², {:.3} J; {} weak points to start from",
                     i.cracks,
                     1e4 * i.crack_area_m2,
                     i.fracture_energy_j,
@@ -316,7 +316,7 @@ impl BodyReport {
                 ),
             );
         } else {
-            row("impact", "none hard enough to ask whether it breaks".into());
+            row("impact", "none hard enough to be tested for cracks".into());
         }
         if self.blows.len() > 1 {
             row("blows", blows_in_words(&self.blows));
@@ -350,7 +350,7 @@ impl BodyReport {
                 ),
             );
         } else {
-            row("fragments", "none: it held".into());
+            row("fragments", "none: the body did not break".into());
         }
     }
 }
@@ -393,7 +393,7 @@ impl Report {
         let [median, high, longest] = self.frames_ms;
         row(
             "frames",
-            format!("{median:.1} ms, 99 of 100 within {high:.1} ms, longest {longest:.0} ms"),
+            format!("median {median:.1} ms, 99th percentile {high:.1} ms, longest {longest:.0} ms"),
         );
         let stages: Vec<String> = self
             .stages_ms

@@ -26,7 +26,7 @@ pub(crate) fn break_of(file: Option<&Path>, args: &BreakArgs) -> Result<Request,
     if let Some(n) = args.contact_sheet {
         if args.no_pictures {
             return Err(format!(
-                "--contact-sheet {n} draws a picture, which --no-pictures forbids; drop one of the two"
+                "--contact-sheet {n} draws a picture, which --no-pictures forbids; remove one of the two"
             )
             .into());
         }
@@ -58,11 +58,11 @@ pub(crate) fn scene_of(file: Option<&Path>, args: &SceneArgs) -> Result<Request,
         if args.material.is_none() && FileKind::of(file)? == FileKind::Mesh {
             let material = &wanted.bodies[0].material.name;
             notes.push(format!(
-                "material {material}, as none was given (--material)"
+                "material {material}, because none was given (--material)"
             ));
         }
         if args.drop.is_none() && args.ball.is_none() && args.supports.is_empty() {
-            notes.push("dropped from 1.5 m, as nothing else was asked for (--drop, --ball)".into());
+            notes.push("dropped from 1.5 m, because no other blow was given (--drop, --ball)".into());
         }
     }
     set_material(&mut wanted, args.material.as_deref())?;
@@ -89,7 +89,7 @@ pub(crate) fn scene_of(file: Option<&Path>, args: &SceneArgs) -> Result<Request,
         && !body.supports.is_empty()
     {
         return Err(
-            "a held body does not fall; throw something at it, for example --ball 0.1,0.015,10"
+            "a supported body cannot be dropped; throw a ball at it, for example --ball 0.1,0.015,10"
                 .into(),
         );
     }
@@ -108,13 +108,13 @@ pub(crate) fn body_of(args: &BakeArgs) -> Result<Scene, Box<dyn Error>> {
     let mut wanted = opened(args.file.as_deref(), args.scene.as_deref())?;
     match &wanted.bodies[..] {
         [body] if matches!(body.source, BodySource::Asset(_)) => {
-            return Err("the body is baked already; bake the mesh it was made of".into());
+            return Err("the file holds a body that is already baked; bake the mesh it was made from".into());
         }
         [_] => {}
         bodies => {
             let count = bodies.len();
             return Err(format!(
-                "the scene has {count} bodies, and one file holds one; bake a scene of one body"
+                "the scene has {count} bodies, but a .frangible file holds one; bake a scene with one body"
             )
             .into());
         }
@@ -134,7 +134,7 @@ pub(crate) fn body_with_modes(args: &ModesArgs) -> Result<Scene, Box<dyn Error>>
     if wanted.bodies.len() != 1 {
         let count = wanted.bodies.len();
         return Err(format!(
-            "the scene has {count} bodies; look at the modes of one body at a time, in a scene of its own"
+            "the scene has {count} bodies, but modes are shown for one body at a time; give a scene with one body"
         )
         .into());
     }
@@ -152,7 +152,7 @@ fn opened(file: Option<&Path>, name: Option<&str>) -> Result<Scene, Box<dyn Erro
         .filter(|given| SCENE_NAMES.contains(given));
     if let Some(scene) = taken_for_file {
         return Err(format!(
-            "there is no file `{scene}`; the built-in scene of that name is --scene {scene}"
+            "there is no file `{scene}`; for the built-in scene of that name, give --scene {scene}"
         )
         .into());
     }
@@ -209,7 +209,7 @@ fn refuse_baked(scene: &Scene, option: &str) -> Result<(), String> {
     match baked {
         None => Ok(()),
         Some(body) => Err(format!(
-            "{option} cannot change `{}`, which is baked; give it to `frangible bake` instead",
+            "{option} cannot change `{}`, which is already baked; give it to `frangible bake` instead",
             body.name
         )),
     }
@@ -223,7 +223,7 @@ fn set_supports(scene: &mut Scene, specs: &[String]) -> Result<(), String> {
     refuse_baked(scene, "--support")?;
     let [body] = &mut scene.bodies[..] else {
         return Err(
-            "--support is for a single body; the scene has several, set `supports` there".into(),
+            "--support applies to a single body, but the scene has several; set `supports` in the scene file".into(),
         );
     };
     for spec in specs {
@@ -252,7 +252,7 @@ fn set_mesh(scene: &mut Scene, args: &MeshArgs) -> Result<(), String> {
     };
     if scene.bodies.len() != 1 {
         return Err(format!(
-            "{option} is for a single body; the scene has several, set it there"
+            "{option} applies to a single body, but the scene has several; set it in the scene file"
         ));
     }
     for (option, given) in [
@@ -308,7 +308,7 @@ fn set_mesh(scene: &mut Scene, args: &MeshArgs) -> Result<(), String> {
             Ok(())
         }
         _ => Err(format!(
-            "{option} is for mesh files (.obj, .stl, .ply, .gltf, .glb){}",
+            "{option} applies only to mesh files (.obj, .stl, .ply, .gltf, .glb){}",
             if option == "--wall" {
                 ""
             } else {

@@ -7,7 +7,7 @@ use crate::args::ViewArgs;
 #[cfg(not(feature = "view"))]
 pub(crate) fn run(_: &ViewArgs) -> Result<(), Box<dyn Error>> {
     Err(
-        "the window takes a build with the renderer: cargo run --release --features view -- view"
+        "the viewer requires a build with the renderer: cargo run --release --features view -- view"
             .into(),
     )
 }

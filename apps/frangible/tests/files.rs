@@ -92,28 +92,28 @@ fn files_that_cannot_be_broken_are_refused_in_a_sentence() {
 fn supports_that_cannot_be_meant_are_refused_with_an_example() {
     for (spec, part) in [
         ("below", "KIND:WHERE"),
-        ("below:w:0", "an axis and where"),
-        ("above:x:high", "an axis and where"),
+        ("below:w:0", "an axis and a coordinate"),
+        ("above:x:high", "an axis and a coordinate"),
         ("box:0,0,0,1", "lowest and its highest"),
         ("sphere:0,0,0", "centre and its radius"),
         ("sphere:0,0,0,-1", "radius that is not above zero"),
-        ("group:", "a group has a name"),
-        ("circle:0", "no such kind"),
+        ("group:", "a group takes a name"),
+        ("circle:0", "kind of region is unknown"),
         ("below:z:0@xx", "letters x, y and z"),
         ("group:frame", "there is no group `frame`"),
     ] {
         refused_in_a_sentence("support", &["--scene", "pane", "--support", spec], &[part]);
     }
     let drop = ["--support", "below:z:0", "--drop", "1"];
-    refused_in_a_sentence("support", &drop, &["does not fall", "--ball"]);
+    refused_in_a_sentence("support", &drop, &["cannot be dropped", "--ball"]);
 }
 
 #[test]
 fn options_for_meshes_are_refused_elsewhere() {
     let check = |args: &[&str], parts: &[&str]| refused_in_a_sentence("mesh", args, parts);
-    check(&["--size", "0.1"], &["--size is for mesh files"]);
+    check(&["--size", "0.1"], &["--size applies only to mesh files"]);
     check(&["--resolution", "9"], &["resolution is 9", "500 to"]);
-    check(&["--up", "z"], &["--up is for mesh files"]);
+    check(&["--up", "z"], &["--up applies only to mesh files"]);
     check(&["--up", "q"], &["--up is `q`", "x, y or z"]);
     let input = Folder::new("mesh-input");
     let mesh = scene_file(&input, "a.obj", "v 0 0 0\n");
@@ -133,7 +133,7 @@ fn options_for_meshes_are_refused_elsewhere() {
         &["break", &baked, "--size", "-0.1"],
         &["the body's size is -0.1"],
     );
-    check(&["break", &baked, "--modes", "9"], &["is baked", "bake"]);
+    check(&["break", &baked, "--modes", "9"], &["already baked", "bake"]);
     check(
         &["break", &baked, "--resolution", "3000"],
         &["--resolution cannot change `a`", "`frangible bake`"],
@@ -353,7 +353,7 @@ fn a_mesh_breaks_and_so_does_its_bake_into_the_same_pieces() {
     let output = frangible(&["bake", &mesh, "-o", &elsewhere], None);
     assert!(!output.status.success());
     let output = frangible(&["bake", &baked, "-o", &baked], None);
-    assert!(text(&output.stderr).contains("baked already"));
+    assert!(text(&output.stderr).contains("already baked"));
 }
 
 #[test]

@@ -108,7 +108,7 @@ fn the_table_lists_what_was_asked_for_and_the_files_are_there() {
     let said = text(&output.stdout);
     for part in [
         "shelf, glass",
-        "no rigid motion left",
+        "no rigid-body mode left",
         "MPa/mm",
         "damped",
         "and 9 more",
@@ -201,7 +201,7 @@ fn what_cannot_be_looked_at_is_refused_in_a_sentence_and_leaves_nothing() {
             vec!["--scene", "vase", "--vtu", &grid, "--fracture-vtu", &grid],
             "the same file",
         ),
-        (vec!["--scene", "vase", "--size", "1"], "--size is for mesh"),
+        (vec!["--scene", "vase", "--size", "1"], "--size applies only to mesh"),
         (vec!["--scene", "vase", "--material", "gless"], "glass"),
     ] {
         let output = frangible(&[&["modes"], &args[..]].concat(), None);
