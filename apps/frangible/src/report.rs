@@ -420,17 +420,17 @@ mod tests {
         let mut report = ImpactReport::default();
         (report.strength, report.stress_bound) = (22.1e6, 24e6);
         let refused = Impact::new(0.1, &report, &[], Some(1.003));
-        assert!(refused.contact_in_words().starts_with("not followed"));
+        assert!(refused.contact_in_words().starts_with("not simulated"));
         assert_eq!(
             refused.stress_in_words(),
-            "at most 24.0 MPa, the weakest point bears 22.1 MPa; margin at least 1.00, at the point nearest to its own strength"
+            "at most 24.0 MPa, the weakest point withstands 22.1 MPa; strength over stress at least 1.00 at the most critical point"
         );
         (report.time_steps, report.peak_stress) = (40, 62e6);
         let broke = Impact::new(0.1, &report, &[], None);
         assert!(broke.contact_in_words().contains("40 steps"));
         assert_eq!(
             broke.stress_in_words(),
-            "largest 62.0 MPa, the weakest point bears 22.1 MPa"
+            "largest 62.0 MPa, the weakest point withstands 22.1 MPa"
         );
     }
 }

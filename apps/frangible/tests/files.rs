@@ -73,7 +73,7 @@ fn files_that_cannot_be_broken_are_refused_in_a_sentence() {
             ),
             &[
                 "support 0 of `",
-                "{ below = -1.0 }, holds no part of the body",
+                "{ below = -1.0 }, contains no part of the body",
                 "(the body reaches from 0 to 0.21",
                 "m along z)",
             ],
@@ -376,7 +376,7 @@ fn an_open_surface_is_filled_and_the_note_says_how_heavy_it_is() {
         "open",
         "filled as a solid",
         &mass,
-        "2 faces of fewer than three corners",
+        "2 faces with fewer than three vertices",
     ] {
         assert!(told.contains(part), "no `{part}` in {told}");
     }
@@ -524,7 +524,7 @@ fn meshes_that_cannot_be_broken_are_refused_in_a_sentence() {
         ),
         (cut_glb, &["cut.glb"]),
         (file("shorter.glb", &glb), &["shorter.glb"]),
-        (file("cut.stl", &cut_stl), &["cut off", "facet 3 of 5"]),
+        (file("cut.stl", &cut_stl), &["truncated", "facet 3 of 5"]),
         (
             file("nan.obj", nan.as_bytes()),
             &["vertex 1", "finite", "nan.obj"],

@@ -15,8 +15,7 @@ use crate::report::MeshReport;
 use crate::supports::Holder;
 
 /// Message about a support that the elements cannot see.
-const TOO_SMALL: &str = "holds a part of the body smaller than the elements that carry the modes; enlarge its region or refine the \
-     analysis mesh";
+const TOO_SMALL: &str = "contains only a part of the body smaller than an element of the analysis mesh; enlarge its region or refine the analysis mesh";
 
 /// Elements that carry the modes.
 pub(crate) enum Analysis {

@@ -168,7 +168,7 @@ pub fn bake(
     let held = holder.axes(
         &fine.positions,
         &fine.tets,
-        "holds no part of the body; move or enlarge its region",
+        "contains no part of the body; move or enlarge its region",
     )?;
     let corners = (0..fine.tets.len()).map(|e| fine.corners(e));
     let centre = MassProperties::of_tetrahedra(spec.material.density, corners).centre;

@@ -1,4 +1,4 @@
-//! Errors of baking: each names the fault and how to mend it.
+//! Errors of baking. Each message says what is wrong and how to fix it.
 
 use frangible::InputError;
 use frangible_mesh::{RepairError, SolidError, TetError, TetInputError};
@@ -16,7 +16,7 @@ pub enum BakeError {
         /// The value given.
         value: f64,
     },
-    /// A number above the largest one that there can be.
+    /// A number above its upper limit.
     #[error("{what} is {value}; it must be at most {most}")]
     TooLarge {
         /// The quantity, with its unit.
@@ -26,19 +26,19 @@ pub enum BakeError {
         /// The largest that is allowed.
         most: f64,
     },
-    /// A material or an asset the run time refuses.
+    /// A material or an asset that the core crate rejects.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// A mesh that cannot be mended to a surface.
+    /// A mesh that cannot be repaired.
     #[error(transparent)]
     Repair(#[from] RepairError),
-    /// A surface that is no solid.
+    /// A surface that does not enclose a solid.
     #[error(transparent)]
     Solid(#[from] SolidError),
     /// A solid that could not be filled with tetrahedra.
     #[error(transparent)]
     Tetrahedra(TetError),
-    /// Tetrahedra from a file that are no body.
+    /// Tetrahedra from a file that do not form a body.
     #[error(transparent)]
     TetInput(#[from] TetInputError),
     /// A profile that does not describe a body.
@@ -49,16 +49,16 @@ pub enum BakeError {
         /// The fault, and how to mend it.
         problem: &'static str,
     },
-    /// A mesh that would not fit in a sensible amount of memory.
+    /// A mesh with too many elements to fit in memory.
     #[error(
-        "an element edge of {edge} m asks for about {tets} tetrahedra, more than {limit}; use larger elements"
+        "an element edge of {edge} m takes about {tets} tetrahedra, more than the limit of {limit}; use larger elements"
     )]
     TooFine {
-        /// Edge length asked for, m.
+        /// Requested edge length, m.
         edge: f64,
         /// Estimated number of tetrahedra.
         tets: usize,
-        /// The most that is allowed.
+        /// Largest allowed number.
         limit: usize,
     },
     /// A tetrahedron without volume, or turned inside out.
@@ -82,40 +82,40 @@ pub enum BakeError {
     /// A support names a group that the body does not have.
     #[error("there is no group `{name}`{known}")]
     UnknownGroup {
-        /// Name asked for.
+        /// Requested name.
         name: String,
-        /// The group that was probably meant, and the groups that there are.
+        /// The most similar name, and the names of all groups.
         known: String,
     },
-    /// Supports that leave nothing to move.
+    /// Supports that fix the whole body.
     #[error(
-        "the supports hold the whole body, so that nothing is left to vibrate; make their regions smaller"
+        "the supports fix the whole body, so nothing can vibrate; make their regions smaller"
     )]
     AllHeld,
-    /// More modes wanted than the analysis mesh has.
+    /// More modes requested than the analysis mesh has.
     #[error(
-        "{wanted} modes wanted, but the analysis mesh has {available}; ask for 1 to {available}, or refine it"
+        "{wanted} modes requested, but the analysis mesh has {available}; request 1 to {available}, or refine the mesh"
     )]
     Modes {
-        /// Number of modes asked for.
+        /// Requested number of modes.
         wanted: usize,
-        /// Number of elastic modes there are.
+        /// Number of elastic modes of the mesh.
         available: usize,
     },
-    /// More modes wanted than an asset keeps.
-    #[error("{wanted} modes wanted, but an asset keeps at most {most}; ask for 1 to {most}")]
+    /// More modes requested than an asset keeps.
+    #[error("{wanted} modes requested, but an asset keeps at most {most}; request 1 to {most}")]
     TooManyModes {
-        /// Number of modes asked for.
+        /// Requested number of modes.
         wanted: usize,
-        /// Most that there can be.
+        /// Largest allowed number.
         most: usize,
     },
-    /// No mode to follow, or more than there are.
+    /// No mode to integrate through time, or more than the asset keeps.
     #[error(
-        "{wanted} of {modes} modes are to be followed through time; follow 1 to {modes}, or leave the choice to the bake"
+        "cannot integrate {wanted} of {modes} modes through time; choose 1 to {modes}, or let the bake choose"
     )]
     Followed {
-        /// Number asked for.
+        /// Requested number.
         wanted: usize,
         /// Modes that the asset keeps.
         modes: usize,
@@ -128,19 +128,19 @@ pub enum BakeError {
         /// Reason given by the solver.
         reason: String,
     },
-    /// The eigenvalue iteration stopped short.
+    /// The eigenvalue iteration did not converge.
     #[error(
-        "only {converged} of {wanted} modes converged within a basis of {basis} vectors; ask for fewer modes"
+        "only {converged} of {wanted} modes converged within a basis of {basis} vectors; request fewer modes"
     )]
     NotConverged {
-        /// Modes found.
+        /// Number of modes that converged.
         converged: usize,
-        /// Modes wanted.
+        /// Requested number of modes.
         wanted: usize,
         /// Size of the Krylov basis.
         basis: usize,
     },
-    /// A mode that does not solve the eigenvalue problem well enough.
+    /// A mode whose residual is too large.
     #[error(
         "mode {mode} has a relative residual of {residual:.1e} (limit {limit:.1e}); check the mesh for slivers"
     )]
@@ -149,7 +149,7 @@ pub enum BakeError {
         mode: usize,
         /// ‖Kφ − λMφ‖ / ‖Kφ‖.
         residual: f64,
-        /// The most that is allowed.
+        /// Largest allowed residual.
         limit: f64,
     },
     /// The caller cancelled the bake.

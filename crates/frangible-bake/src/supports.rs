@@ -100,27 +100,27 @@ impl Region {
         match *self {
             Self::HalfSpace { point, normal } => {
                 if !(point.is_finite() && normal.is_finite()) {
-                    Some("has a number that is not finite; give metres")
+                    Some("has a coordinate or radius that is not finite; give finite numbers in metres")
                 } else if normal.try_normalize().is_none() {
-                    Some("has a normal of no length; give a direction")
+                    Some("has a normal of length zero; give a direction")
                 } else {
                     None
                 }
             }
             Self::Box { low, high } => {
                 if low.is_nan() || high.is_nan() {
-                    Some("has a number that is not a number; give metres")
+                    Some("has a NaN coordinate; give numbers in metres")
                 } else if low.cmpgt(high).any() {
-                    Some("has a low corner above its high one; swap them")
+                    Some("has a low corner above its high corner; swap them")
                 } else {
                     None
                 }
             }
             Self::Sphere { centre, radius } => {
                 if !(centre.is_finite() && radius.is_finite()) {
-                    Some("has a number that is not finite; give metres")
+                    Some("has a coordinate or radius that is not finite; give finite numbers in metres")
                 } else if radius <= 0.0 {
-                    Some("has a radius that is not above zero; give metres")
+                    Some("has a radius that is not above zero; give a positive radius in metres")
                 } else {
                     None
                 }
@@ -136,7 +136,7 @@ impl Region {
 /// The first support without axes, or with numbers that cannot be used.
 pub fn check_supports(supports: &[Support]) -> Result<(), BakeError> {
     for (support, Support { region, axes }) in supports.iter().enumerate() {
-        let axisless = "holds along no axis; set one of its axes";
+        let axisless = "fixes no axis; set at least one of its axes";
         let none = (*axes == [false; 3]).then_some(axisless);
         if let Some(problem) = region.problem().or(none) {
             return Err(BakeError::Support { support, problem });
@@ -168,7 +168,7 @@ fn group_of<'a>(region: &Region, groups: &'a [Group]) -> Result<Option<&'a Group
     Err(BakeError::UnknownGroup {
         name: name.clone(),
         known: match groups.len() {
-            0 => "; this body has none (an OBJ names them by g, o and usemtl, a glTF by its nodes, meshes and materials)".into(),
+            0 => "; this body has no groups (in an OBJ they are named by g, o and usemtl, in a glTF by nodes, meshes and materials)".into(),
             n if n > MOST_SHOWN => format!("{hint}; groups: {} and {} more", known.join(", "), n - MOST_SHOWN),
             _ => format!("{hint}; groups: {}", known.join(", ")),
         },

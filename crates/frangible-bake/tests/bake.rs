@@ -308,9 +308,9 @@ fn the_bake_chooses_how_many_modes_a_blow_follows() {
 #[test]
 fn numbers_of_modes_that_cannot_be_are_refused_with_the_limit() {
     for (modes, followed, words) in [
-        (401, None, "at most 400; ask for 1 to 400"),
-        (0, None, "ask for 1 to 400"),
-        (20, Some(0), "follow 1 to 20"),
+        (401, None, "at most 400; request 1 to 400"),
+        (0, None, "request 1 to 400"),
+        (20, Some(0), "choose 1 to 20"),
         (20, Some(21), "21 of 20 modes"),
     ] {
         let error = plate_of(modes, followed).unwrap_err().to_string();

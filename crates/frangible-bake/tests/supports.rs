@@ -347,17 +347,17 @@ fn supports_that_cannot_be_meant_are_errors_that_name_them() {
     let cuboid = |low, high| Region::Box { low, high };
     let half = |point, normal| Region::HalfSpace { point, normal };
     let cases = [
-        (Region::below(2, -0.1), "holds no part of the body"),
+        (Region::below(2, -0.1), "contains no part of the body"),
         (
             cuboid(DVec3::splat(5.0), DVec3::splat(6.0)),
-            "holds no part of the body",
+            "contains no part of the body",
         ),
         (cuboid(DVec3::ONE, DVec3::ZERO), "low corner above"),
-        (cuboid(DVec3::NAN, DVec3::ONE), "not a number"),
+        (cuboid(DVec3::NAN, DVec3::ONE), "NaN"),
         (sphere(0.0), "radius"),
         (sphere(f64::INFINITY), "not finite"),
         (half(DVec3::NAN, DVec3::X), "not finite"),
-        (half(DVec3::ZERO, DVec3::ZERO), "normal of no length"),
+        (half(DVec3::ZERO, DVec3::ZERO), "normal of length zero"),
     ];
     for (region, words) in cases {
         let spec = small_plate(vec![good.clone(), good.clone(), Support::clamped(region)]);
@@ -379,7 +379,7 @@ fn supports_that_cannot_be_meant_are_errors_that_name_them() {
     let error = bake(&small_plate(vec![idle]), &mut |_| {})
         .unwrap_err()
         .to_string();
-    assert!(error.contains("along no axis"), "{error}");
+    assert!(error.contains("fixes no axis"), "{error}");
     let all = Support::clamped(Region::below(2, 1.0));
     let error = bake(&small_plate(vec![all]), &mut |_| {}).unwrap_err();
     assert_eq!(error, BakeError::AllHeld);
@@ -460,7 +460,7 @@ fn an_unknown_group_is_refused_with_the_names_there_are() {
     let mut spec = small_plate(vec![Support::clamped(Region::Group("wal".into()))]);
     let message = |spec: &BakeSpec| bake(spec, &mut |_| {}).unwrap_err().to_string();
     assert!(
-        message(&spec).contains("this body has none"),
+        message(&spec).contains("this body has no groups"),
         "{}",
         message(&spec)
     );
@@ -473,7 +473,7 @@ fn an_unknown_group_is_refused_with_the_names_there_are() {
     spec.supports[0].region = Region::Group("wall".into());
     spec.groups[0].triangles.clear();
     assert!(
-        message(&spec).contains("holds no part of the body"),
+        message(&spec).contains("contains no part of the body"),
         "{}",
         message(&spec)
     );

@@ -71,7 +71,7 @@ impl<'a> Division<'a> {
             let place = at(low, high);
             if place.is_nan() {
                 return Err(CompareError::Labels(format!(
-                    "the place of its cut between the nodes {low} and {high} is no number"
+                    "the position of the cut between the nodes {low} and {high} is not a number"
                 )));
             }
             cuts.push(([low, high], place));

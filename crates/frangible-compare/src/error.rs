@@ -11,7 +11,7 @@ pub enum CompareError {
     #[error(transparent)]
     Input(#[from] InputError),
     /// No contact with an impulse.
-    #[error("nothing pushes the body: none of its contacts has an impulse; give one above 0 N·s")]
+    #[error("none of the body's contacts has an impulse; give at least one an impulse above 0 N·s")]
     NoImpulse,
     /// A piece of a broken body.
     #[error("`{0}` is a piece of a broken body; methods are compared on whole bodies only")]

@@ -16,7 +16,7 @@ fn labels_that_cannot_be_used_are_refused() {
     assert!(refused(vec![0; nodes - 1], 0.5).contains(&format!("{nodes} nodes")));
     let mut half = vec![0; nodes];
     half[..nodes / 2].fill(1);
-    assert!(refused(half, f64::NAN).contains("is no number"));
+    assert!(refused(half, f64::NAN).contains("is not a number"));
 }
 
 #[test]

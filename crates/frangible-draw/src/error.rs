@@ -7,10 +7,10 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum DrawError {
-    /// No graphics driver answered.
+    /// No graphics adapter found.
     #[cfg_attr(
         target_family = "wasm",
-        error("the browser gives neither WebGPU nor WebGL 2 to draw with")
+        error("the browser offers neither WebGPU nor WebGL 2; use a browser with one of them, or turn on hardware acceleration")
     )]
     #[cfg_attr(
         not(target_family = "wasm"),
@@ -19,10 +19,10 @@ pub enum DrawError {
         )
     )]
     NoAdapter,
-    /// An error that traced pictures have, too.
+    /// An error shared with path-traced pictures.
     #[error(transparent)]
     Photo(#[from] PhotoError),
-    /// A coloured shape that does not fit together.
+    /// A coloured shape whose lists do not match.
     #[error("shape {number} of the sheet cannot be drawn: {problem}")]
     BadField {
         /// Number of the shape, from 1.
@@ -32,7 +32,7 @@ pub enum DrawError {
     },
     /// The renderer's thread panicked.
     #[error(
-        "the renderer failed; its message is on the error output, often a driver out of memory: try a smaller picture"
+        "the renderer failed, often because the graphics driver ran out of memory; see the error output and try a smaller picture"
     )]
     Renderer,
 }

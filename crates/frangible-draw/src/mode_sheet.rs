@@ -147,7 +147,7 @@ pub(crate) fn check_values(
     }
     let mut corners = triangles.iter().flatten();
     if corners.any(|&vertex| vertex as usize >= vertices) {
-        return Err(wrong("a triangle has a vertex that does not exist"));
+        return Err(wrong("a triangle refers to a vertex that does not exist"));
     }
     if !positions.iter().all(|p| p.is_finite()) {
         return Err(wrong("a position is not a finite number"));

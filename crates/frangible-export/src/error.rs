@@ -12,7 +12,7 @@ pub enum ExportError {
     Recording(#[from] RecordingError),
     /// A GLB file holds at most 4 GiB, as its lengths are 32 bits wide.
     #[error(
-        "the file would take {bytes} bytes, but GLB ends at 4294967295; record fewer frames or export fewer shards"
+        "the file would take {bytes} bytes, but a GLB file holds at most 4294967295; record fewer frames or export fewer pieces"
     )]
     TooLarge {
         /// The size it would have.

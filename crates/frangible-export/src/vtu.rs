@@ -162,13 +162,13 @@ fn check(mesh: &VtuMesh<'_>, connectivity: &[u32]) -> Result<(), ExportError> {
     let nodes = mesh.points.len();
     if let Some(at) = mesh.points.iter().position(|p| !p.is_finite()) {
         return wrong(format!(
-            "node {at} lies at {}, no finite point",
+            "node {at} lies at {}, which is not finite",
             mesh.points[at]
         ));
     }
     if let Some(&node) = connectivity.iter().find(|&&node| node as usize >= nodes) {
         return wrong(format!(
-            "an element has node {node} of {nodes}, counted from 0"
+            "an element refers to node {node}, counted from 0, but there are only {nodes}"
         ));
     }
     for field in mesh.point_data {

@@ -135,8 +135,8 @@ impl Solver {
         config: &FractureConfig,
     ) -> Result<Ran, GpuError> {
         let gpu = match (&self.gpu, self.choice) {
-            (_, Choice::Cpu) => return Ok(ran(RanOn::Cpu, 0, "the CPU was asked for".into())),
-            (Ok(_), Choice::Gpu) => return Ok(ran(RanOn::Gpu, 0, "the GPU was asked for".into())),
+            (_, Choice::Cpu) => return Ok(ran(RanOn::Cpu, 0, "the CPU was requested".into())),
+            (Ok(_), Choice::Gpu) => return Ok(ran(RanOn::Gpu, 0, "the GPU was requested".into())),
             (Err(error), _) => return Ok(ran(RanOn::Cpu, 0, error.to_string())),
             (Ok(gpu), Choice::Auto) => gpu,
         };
@@ -150,7 +150,7 @@ impl Solver {
             .collect();
         let n = costly.len();
         if n == 0 {
-            let why = "the first bound refuses the whole batch".into();
+            let why = "the first bound rules out cracks in the whole batch".into();
             return Ok(ran(RanOn::Cpu, n, why));
         }
         let trial = &costly[..n.min(TRIAL.max(rayon::current_num_threads()))];

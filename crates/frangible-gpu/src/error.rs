@@ -1,4 +1,4 @@
-//! Errors of the GPU path: each names the problem and its remedy.
+//! Errors of the GPU path. Each message says what is wrong and how to fix it.
 
 use frangible::InputError;
 use thiserror::Error;
@@ -7,12 +7,12 @@ use thiserror::Error;
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum GpuError {
-    /// No adapter, in hardware or in software.
+    /// No graphics adapter, neither hardware nor software.
     #[error(
         "no graphics adapter was found; install a Vulkan driver (on Linux `mesa-vulkan-drivers` has one in software), or choose the CPU"
     )]
     NoAdapter,
-    /// An adapter that is too small.
+    /// An adapter that lacks a required capability.
     #[error(
         "the graphics adapter `{adapter}` cannot be used: {problem}; update its driver, or choose the CPU"
     )]
@@ -22,9 +22,9 @@ pub enum GpuError {
         /// The missing capability.
         problem: String,
     },
-    /// Something that does not fit one buffer.
+    /// Data that does not fit into one GPU buffer.
     #[error(
-        "{what} of `{asset}` needs {bytes} bytes and a buffer holds {limit}; bake with fewer modes or a coarser mesh, or choose the CPU"
+        "{what} of `{asset}` needs {bytes} bytes, but a GPU buffer holds at most {limit}; bake with fewer modes or a coarser mesh, or choose the CPU"
     )]
     TooLarge {
         /// The thing that does not fit.
@@ -36,14 +36,14 @@ pub enum GpuError {
         /// The largest size.
         limit: u64,
     },
-    /// A body that is not of the kind that was loaded for it.
+    /// A body that does not belong to the asset that was loaded for it.
     #[error(
-        "impact {0} has a body of another asset than the one loaded for it; load its own Breakable"
+        "impact {0} pairs a body with the data of another asset; load the Breakable of that body"
     )]
     WrongBody(usize),
     /// A kind of body that was loaded by another [`Solver`](crate::Solver), or without a GPU.
     #[error(
-        "impact {0} has a kind that was not loaded onto this GPU; load it with the Gpu or Solver that computes"
+        "impact {0} uses a Breakable that was not loaded onto this GPU; load it with the Gpu or Solver that computes the impact"
     )]
     NotLoaded(usize),
     /// Memory, the driver or the device failed.

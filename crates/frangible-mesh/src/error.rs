@@ -16,8 +16,7 @@ pub enum TetError {
     },
     /// More lattice points than fit in memory.
     #[error(
-        "a cell of {cell:.2e} m asks for {points:.1e} lattice points over the body's box, more than {limit:.0e}; \
-         ask for fewer tetrahedra"
+        "a lattice cell of {cell:.2e} m gives {points:.1e} lattice points in the body's bounding box, more than {limit:.0e}; request fewer tetrahedra"
     )]
     TooFine {
         /// Side of a lattice cube, m.
@@ -29,7 +28,7 @@ pub enum TetError {
     },
     /// No lattice point lies inside.
     #[error(
-        "no part of the body is as thick as the lattice cell of {cell:.2e} m; ask for more tetrahedra"
+        "no part of the body is as thick as the lattice cell of {cell:.2e} m; request more tetrahedra"
     )]
     Nothing {
         /// Side of a lattice cube, m.
@@ -37,8 +36,7 @@ pub enum TetError {
     },
     /// Walls too thin for the number of tetrahedra allowed.
     #[error(
-        "walls of {wall:.2e} m need about {needed} tetrahedra, more than the {limit} allowed; \
-         ask for {needed} or make the walls thicker"
+        "walls of {wall:.2e} m need about {needed} tetrahedra, more than the {limit} allowed; request {needed} or make the walls thicker"
     )]
     TooThin {
         /// Thickness of the thin walls, m.
@@ -50,8 +48,7 @@ pub enum TetError {
     },
     /// A body in several pieces, none of them the main one.
     #[error(
-        "the body falls into {pieces} separate pieces, the largest with {share:.0} % of the volume; \
-         join them, or give each its own file"
+        "the body consists of {pieces} separate pieces, the largest with {share:.0} % of the volume; join them, or put each in its own file"
     )]
     Pieces {
         /// Number of pieces.
@@ -60,11 +57,11 @@ pub enum TetError {
         share: f64,
     },
     /// Parts that touch along edges only, in ever new places.
-    #[error("parts of the body touch along mere edges; ask for a few more or fewer tetrahedra")]
+    #[error("parts of the body are joined only along edges; request slightly more or fewer tetrahedra")]
     Pinched,
     /// A tetrahedron flatter than promised.
     #[error(
-        "the worst dihedral angle is {angle:.1}°, below {limit}°; ask for a few more or fewer tetrahedra"
+        "the worst dihedral angle is {angle:.1}°, below {limit}°; request slightly more or fewer tetrahedra"
     )]
     Sliver {
         /// Smallest dihedral angle, degrees.

@@ -31,7 +31,7 @@ pub enum TetInputError {
     #[error("the mesh has no tetrahedra; a body needs a volume mesh")]
     Empty,
     /// An index beyond the nodes, or a list of another length than the tetrahedra.
-    #[error("tetrahedron {element} refers to a node or a list that is not there")]
+    #[error("tetrahedron {element} refers to a node that does not exist, or lacks an entry in one of the lists")]
     Index {
         /// Its number in the file.
         element: u64,
@@ -44,8 +44,7 @@ pub enum TetInputError {
     },
     /// Flat tetrahedra, too many to be mended.
     #[error(
-        "{count} of {of} tetrahedra have next to no volume for their edges, the first of them element {element} with \
-         {volume:.1e} (in the file's unit); up to a tenth is mended: optimise the mesh where it was made"
+        "{count} of {of} tetrahedra are flat, the first of them element {element} with a volume of {volume:.1e} (in the file's unit); at most a tenth can be repaired: optimise the mesh in the mesher that made it"
     )]
     Flat {
         /// Number of the first in the file.
@@ -59,22 +58,21 @@ pub enum TetInputError {
     },
     /// A face of three tetrahedra.
     #[error(
-        "element {element} has a face that two other tetrahedra have as well; remove what overlaps"
+        "element {element} has a face that two other tetrahedra share; remove the overlapping elements"
     )]
     SharedFace {
         /// Its number in the file.
         element: u64,
     },
     /// Parts that touch along edges only.
-    #[error("parts of the body touch along {edges} mere edges; join or part them there")]
+    #[error("parts of the body are joined only along {edges} edges; merge or separate them there")]
     Pinched {
         /// Number of such edges.
         edges: usize,
     },
     /// Middle nodes that are no middles.
     #[error(
-        "a middle node of element {element} lies {share:.0} % of its edge's length off the middle; up to 25 % are \
-         straightened: use smaller elements there, or elements of first order"
+        "a mid-edge node of element {element} lies {share:.0} % of the edge's length away from the midpoint, and at most 25 % can be straightened; use smaller elements there, or first-order elements"
     )]
     Curved {
         /// Its number in the file.
@@ -84,8 +82,7 @@ pub enum TetInputError {
     },
     /// Several bodies.
     #[error(
-        "the mesh falls into {pieces} separate pieces, the largest with {share:.0} % of the volume; give each its own \
-         file, or make them share the nodes where they touch"
+        "the mesh consists of {pieces} separate pieces, the largest with {share:.0} % of the volume; put each in its own file, or let them share nodes where they touch"
     )]
     Pieces {
         /// Number of pieces.
@@ -127,17 +124,17 @@ impl fmt::Display for TetMend {
                 parts.push(format!("{count} {what}"));
             }
         };
-        say(self.turned, "tetrahedra turned right side out");
+        say(self.turned, "inverted tetrahedra flipped");
         say(self.flat, "flat tetrahedra dropped");
         let lifted = format!(
-            "flat tetrahedra mended (nodes moved by up to {:.1} % of their edges)",
+            "flat tetrahedra repaired (nodes moved by up to {:.1} % of their edges)",
             100.0 * self.moved
         );
         say(self.lifted, &lifted);
-        say(self.welded, "doubled nodes welded");
+        say(self.welded, "duplicate nodes merged");
         say(self.unused, "unused nodes dropped");
-        say(self.parted, "nodes doubled where parts touch at a point");
-        say(self.dropped, "small loose pieces dropped");
+        say(self.parted, "nodes duplicated where parts touch at a point");
+        say(self.dropped, "small disconnected pieces dropped");
         if self.curved > 0.0 {
             let most = 100.0 * self.curved;
             parts.push(format!(

@@ -121,14 +121,14 @@ impl fmt::Display for TetReport {
         if self.features.sharp > 0 {
             write!(
                 f,
-                ", {} of {} sharp places not snapped",
+                ", {} of {} sharp features not snapped",
                 self.features.not_snapped, self.features.sharp
             )?;
         }
         if self.pieces > 1 {
             write!(
                 f,
-                "; {} loose piece{} dropped ({:.2} % of the volume)",
+                "; {} disconnected piece{} dropped ({:.2} % of the volume)",
                 self.pieces - 1,
                 if self.pieces == 2 { "" } else { "s" },
                 100.0 * (1.0 - self.kept)

@@ -56,7 +56,7 @@ pub(crate) fn eigen_into(
 pub(crate) fn symmetric_eigen(sums: Sums, matrix: &Block) -> Result<(Vec<f64>, Block), BakeError> {
     if sums == Sums::Portable {
         return portable::symmetric(matrix).ok_or_else(|| BakeError::Factorization {
-            reason: "dense eigenvalues: the matrix holds what is no number".into(),
+            reason: "dense eigenvalues: the matrix contains NaN".into(),
         });
     }
     let mut vectors = Block::zeros(matrix.rows, matrix.rows);

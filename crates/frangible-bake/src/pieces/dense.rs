@@ -53,5 +53,5 @@ pub(crate) fn product(a: &Block, b: &Block) -> Block {
 /// # Errors
 /// NaN in the matrix.
 pub(crate) fn eigen(matrix: &Block) -> Result<(Vec<f64>, Block), PieceError> {
-    symmetric(matrix).ok_or_else(|| refused("the matrix holds what is no number"))
+    symmetric(matrix).ok_or_else(|| refused("the matrix contains NaN"))
 }

@@ -8,14 +8,14 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum PieceError {
-    /// Its finite elements.
+    /// The finite elements of the piece are invalid.
     #[error(transparent)]
     Elements(#[from] BakeError),
     /// The modes found do not fit the piece.
     #[error(transparent)]
     Body(#[from] InputError),
     /// A matrix that cannot be factored.
-    #[error("the stiffness of a piece cannot be factored ({reason}); it does not break again")]
+    #[error("the stiffness matrix of a piece cannot be factorized ({reason}); the piece cannot break again")]
     Factorization {
         /// Reason given by the solver.
         reason: String,

@@ -121,6 +121,6 @@ impl PieceModel for Pieces {
 
 fn told(elastic: Result<Elastic, PieceError>) -> Option<Elastic> {
     elastic
-        .inspect_err(|e| log::warn!("a piece does not break again: {e}"))
+        .inspect_err(|e| log::warn!("a piece cannot break again: {e}"))
         .ok()
 }

@@ -234,7 +234,7 @@ fn ritz(stiffness: &Block, mass: &Block, rigid: usize) -> Result<(Vec<f64>, Bloc
         .filter(|&i| values[i] > DEPENDENT * m as f64)
         .collect();
     if kept.is_empty() {
-        return Err(refused("the parent's modes do not move it"));
+        return Err(refused("the parent's modes have no motion on the piece"));
     }
     let white = Block::from_fn(m, kept.len(), |i, j| {
         scale[i] * vectors[(i, kept[j])] / values[kept[j]].sqrt()
@@ -246,7 +246,7 @@ fn ritz(stiffness: &Block, mass: &Block, rigid: usize) -> Result<(Vec<f64>, Bloc
         .filter(|&i| values[i] > 0.0)
         .collect();
     if elastic.is_empty() {
-        return Err(refused("the parent's modes do not tell how it bends"));
+        return Err(refused("the parent's modes have no deformation on the piece"));
     }
     let chosen = Block::from_fn(kept.len(), elastic.len(), |i, j| vectors[(i, elastic[j])]);
     let eigenvalues = elastic.iter().map(|&i| values[i]).collect();

@@ -205,7 +205,7 @@ fn validate(stations: &[Station]) -> Result<(), BakeError> {
         if distance(m(&w[0]), m(&w[1])) <= 0.0 {
             return fail(
                 i + 1,
-                "it lies where the one before lies; remove one of them",
+                "it coincides with the station before it; remove one of them",
             );
         }
     }

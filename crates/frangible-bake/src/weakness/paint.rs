@@ -123,7 +123,7 @@ pub fn from_paint(asset: &Asset, paint: &[Paint]) -> Result<Fields, InputError> 
     let Some(drawn) = drawn.filter(|r| !r.triangles.is_empty() && !r.colors.is_empty()) else {
         let name = &asset.name;
         return Err(InputError::Field(format!(
-            "`{name}` has no vertex colours to paint weakness with; export its mesh with them and bake it again"
+            "`{name}` has no vertex colours to take the weakness from; export its mesh with vertex colours and bake it again"
         )));
     };
     Fields::from_surface(asset, &drawn.positions, &drawn.triangles, |at| {

@@ -8,44 +8,44 @@ use thiserror::Error;
 /// Error of reading a mesh file. Faces, vertices and lines are counted from 1.
 #[derive(Debug, Error)]
 pub enum ReadError {
-    /// No file of this name.
+    /// The file does not exist.
     #[error("there is no file {}{}", path.display(), did_you_mean(nearest.as_deref()))]
     Missing {
-        /// The path asked for.
+        /// The requested path.
         path: PathBuf,
         /// The most similar name in the same folder.
         nearest: Option<String>,
     },
-    /// An address of the web in place of a path.
-    #[error("{} is an address, not a file; download it first and name the file", .0.display())]
+    /// A web address in place of a path.
+    #[error("{} is a web address, not a file; download the file and give its path", .0.display())]
     Address(PathBuf),
     /// The path names a folder or a device.
-    #[error("{} is not a file; name a mesh file inside it", .0.display())]
+    #[error("{} is not a file; give the path of a mesh file", .0.display())]
     NotAFile(PathBuf),
-    /// The operating system refuses.
+    /// The operating system cannot read the file.
     #[error("cannot read {}: {source}", path.display())]
     Unreadable {
-        /// The path asked for.
+        /// The requested path.
         path: PathBuf,
         /// Its reason.
         source: io::Error,
     },
-    /// No bytes.
+    /// The file is empty.
     #[error("the file is empty")]
     Empty,
-    /// Neither the name nor the content tells the format.
-    #[error("cannot tell the format of {name}: known are .obj, .stl, .ply, .gltf and .glb")]
+    /// Neither the name nor the content identifies the format.
+    #[error("cannot determine the format of {name}; known formats are .obj, .stl, .ply, .gltf and .glb")]
     UnknownFormat {
-        /// File name, or a text in its place.
+        /// File name, or a description of the input.
         name: String,
     },
-    /// The content ends too soon.
-    #[error("the file is cut off: it ends inside {inside}")]
+    /// The file is truncated.
+    #[error("the file is truncated: it ends inside {inside}")]
     Truncated {
         /// Part of the file that was being read.
         inside: String,
     },
-    /// The content breaks the rules of its format.
+    /// The content violates its format.
     #[error("{place}: {problem}")]
     Malformed {
         /// Line, face or part of the file.
@@ -53,24 +53,24 @@ pub enum ReadError {
         /// Fault found there.
         problem: String,
     },
-    /// A film of a break, which this project wrote.
+    /// A GLB of a break, written by this project.
     #[error(
-        "the file shows a break and holds {pieces} of its pieces; give the mesh that broke, or one of the pieces as a file of its own"
+        "the file is an exported break with {pieces} pieces; give the mesh of the whole body, or a file with one of the pieces"
     )]
     Pieces {
-        /// Pieces in it.
+        /// Number of pieces in the file.
         pieces: usize,
     },
-    /// The format allows it, this reader does not know it.
-    #[error("the file needs {0}, which is not supported; export it without")]
+    /// A feature of the format that this reader does not support.
+    #[error("the file uses {0}, which is not supported; export it without")]
     Unsupported(String),
     /// glTF of another version.
     #[error(
-        "the file is glTF {version}, and only glTF 2.0 can be read; export it as 2.0, or convert it, for example with \
+        "the file is glTF {version}, but only glTF 2.0 is supported; export it as 2.0, or convert it, for example with \
          `gltf-pipeline -i old.gltf -o new.glb`"
     )]
     GltfVersion {
-        /// Version that the file names or shows.
+        /// Version of the file.
         version: String,
     },
     /// A face refers to a vertex that does not exist.
@@ -94,9 +94,9 @@ pub enum ReadError {
     /// No triangles to make a solid of.
     #[error("the file has no triangles; a solid needs a surface, not points, lines or curves")]
     NoTriangles,
-    /// More than is sensible to read.
+    /// The file exceeds a size limit.
     #[error(
-        "the file has {found} {what}, the limit is {limit}; simplify the mesh before reading it"
+        "the file has {found} {what}, but the limit is {limit}; simplify the mesh before reading it"
     )]
     TooLarge {
         /// Triangles, vertices or bytes.
@@ -108,18 +108,18 @@ pub enum ReadError {
     },
     /// Neither a surface nor tetrahedra of a known format.
     #[error(
-        "cannot tell the format of {name}: known for tetrahedra are .msh, .node with .ele, .vtk, .vtu and .mesh"
+        "cannot determine the format of {name}; known formats for tetrahedra are .msh, .node with .ele, .vtk, .vtu and .mesh"
     )]
     UnknownTetFormat {
-        /// File name, or a text in its place.
+        /// File name, or a description of the input.
         name: String,
     },
     /// No tetrahedra.
-    #[error("the file has no tetrahedra; save the volume mesh as well, not the surface alone")]
+    #[error("the file has no tetrahedra; save the volume mesh, not only the surface")]
     NoTetrahedra,
     /// Solid elements of another shape.
     #[error(
-        "the file has {kind}; only tetrahedra can be broken: have the mesher make tetrahedra, or split the {kind}"
+        "the file has {kind}, but only tetrahedra are supported; let the mesher make tetrahedra, or split the {kind}"
     )]
     OtherCells {
         /// Hexahedra, prisms …

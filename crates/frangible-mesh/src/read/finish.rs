@@ -76,11 +76,11 @@ fn complete_colors(mesh: &mut InputMesh) {
     }
     if not_numbers > 0 {
         log::warn!(
-            "{not_numbers} vertices have a colour that is not a finite number; they are taken as white"
+            "{not_numbers} vertices have a colour that is not a finite number; they are read as white"
         );
     }
     if outside > 0 {
-        log::warn!("{outside} vertices have a colour outside 0 to 1; it is cut to that range");
+        log::warn!("{outside} vertices have a colour outside 0 to 1; it is clamped to that range");
     }
 }
 

@@ -61,7 +61,7 @@ pub fn parse_mesh_named(
     let format = match (by_name, by_content) {
         (Some(named), Some(found)) if named != found => {
             log::warn!(
-                "{} holds {found:?} data; it is read as that",
+                "{} contains {found:?} data and is read as such",
                 name.display()
             );
             found

@@ -17,7 +17,7 @@ const FACET: usize = 50;
 /// Count with all bits set: like 0 it stands for one that was never filled in.
 const VOID: u32 = u32::MAX;
 
-const NO_STL: &str = "this is text, but no STL: a text STL begins with the word “solid”";
+const NO_STL: &str = "the file is text but not an STL; a text STL begins with the word “solid”";
 
 pub(crate) fn parse(bytes: &[u8]) -> Result<InputMesh, ReadError> {
     // Binary files, too, may begin with “solid”: the length decides, then the bytes after the word.
@@ -53,7 +53,7 @@ fn looks_written(bytes: &[u8]) -> bool {
 fn counted(there: usize) -> Result<u32, ReadError> {
     check_triangles(there as u64)?;
     if there > 0 {
-        log::warn!("the binary STL miscounts its facets; by its length it has {there}");
+        log::warn!("the facet count of the binary STL does not match its length, which holds {there} facets; reading {there}");
     }
     Ok(there as u32)
 }
@@ -62,7 +62,7 @@ fn parse_binary(bytes: &[u8]) -> Result<InputMesh, ReadError> {
     let count: [u8; 4] = bytes
         .get(80..HEADER)
         .and_then(|count| count.try_into().ok())
-        .ok_or_else(|| ReadError::truncated("the 84 bytes before the facets of a binary STL"))?;
+        .ok_or_else(|| ReadError::truncated("the 84-byte header of a binary STL"))?;
     let there = (bytes.len() - HEADER) / FACET;
     let is_whole = (bytes.len() - HEADER).is_multiple_of(FACET);
     let is_padding = |count: u32| {
@@ -137,7 +137,7 @@ fn parse_text(bytes: &[u8]) -> Result<InputMesh, ReadError> {
             corners.clear();
         } else if is(b"endfacet") {
             if corners.len() < 3 {
-                let problem = format!("the facet has {} vertices, it needs three", corners.len());
+                let problem = format!("the facet has {} vertices; it must have three", corners.len());
                 return Err(ReadError::malformed(place(&cursor), problem));
             }
             triangulate(&corners, &mut triangles);
@@ -161,7 +161,7 @@ fn parse_text(bytes: &[u8]) -> Result<InputMesh, ReadError> {
         return Err(cut_off(facet));
     }
     if !ended {
-        log::warn!("the STL has no “endsolid”: it may be cut off");
+        log::warn!("the STL has no “endsolid” and may be truncated");
     }
     solid.change([], mesh.triangles.len() as u32, &mut groups);
     mesh.groups = groups;

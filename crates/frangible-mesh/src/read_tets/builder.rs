@@ -81,7 +81,7 @@ impl Builder {
         }
         if !self.mids.is_empty() && self.mids.len() != self.tets.len() {
             let problem =
-                "tetrahedra of four and of ten nodes mixed; save all of them in one order";
+                "tetrahedra with four and with ten nodes are mixed; save all elements with the same order";
             return Err(ReadError::malformed("the elements", problem));
         }
         if let Some(at) = self.positions.iter().position(|p| !p.is_finite()) {
@@ -91,7 +91,7 @@ impl Builder {
         let index = Numbers::new(&self.tags)?;
         let resolve = |kind: &str, number: u64, tag: u64| {
             index.of(tag).ok_or_else(|| {
-                let problem = format!("it refers to node {tag}, which the file does not have");
+                let problem = format!("it refers to node {tag}, which is not in the file");
                 ReadError::malformed(format!("{kind} {number}"), problem)
             })
         };

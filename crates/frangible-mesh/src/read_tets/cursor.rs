@@ -145,7 +145,7 @@ impl<'a> Cursor<'a> {
         let parsed = std::str::from_utf8(word).ok().and_then(|w| w.parse().ok());
         parsed.ok_or_else(|| {
             self.malformed(format!(
-                "“{}” is no whole number (inside {inside})",
+                "“{}” is not a whole number (inside {inside})",
                 shown(word)
             ))
         })
@@ -155,7 +155,7 @@ impl<'a> Cursor<'a> {
     pub(super) fn count(&mut self, width: usize, inside: &str) -> Result<u64, ReadError> {
         let value = self.integer(width, inside)?;
         u64::try_from(value)
-            .map_err(|_| self.malformed(format!("{value} is below zero (inside {inside})")))
+            .map_err(|_| self.malformed(format!("{value} is negative (inside {inside})")))
     }
 
     /// A number: a word of text, or `width` bytes.

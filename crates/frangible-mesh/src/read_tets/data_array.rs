@@ -53,7 +53,7 @@ impl<'a> Arrays<'a> {
         let bytes = start.and_then(|at| rest[at..].strip_prefix(b"_"));
         Ok(Self {
             bytes: bytes.ok_or_else(|| {
-                ReadError::malformed(tag.place(), "appended data begin with an underscore")
+                ReadError::malformed(tag.place(), "appended data must begin with an underscore")
             })?,
             base64: tag.get("encoding") != Some("raw"),
         })
@@ -84,7 +84,7 @@ impl<'a> Layout<'a> {
             "Int16" | "UInt16" => (2, false),
             "Int32" | "UInt32" => (4, false),
             "Int64" | "UInt64" => (8, false),
-            _ => return Err(wrong(format!("numbers of type “{kind}” are not known"))),
+            _ => return Err(wrong(format!("the number type “{kind}” is unknown"))),
         };
         let inline = || {
             let end = tag.text.iter().position(|&b| b == b'<');
@@ -104,7 +104,7 @@ impl<'a> Layout<'a> {
                 };
                 (source.array(settings)?, settings.coding)
             }
-            other => return Err(wrong(format!("the format “{other}” is not known"))),
+            other => return Err(wrong(format!("the format “{other}” is unknown"))),
         };
         Ok(Self {
             bytes,
@@ -171,7 +171,7 @@ impl<'a> Source<'a> {
     }
 
     fn take(&mut self, count: usize) -> Result<Cow<'a, [u8]>, ReadError> {
-        let inside = "an array of data";
+        let inside = "a data array";
         match self {
             Self::Raw(bytes) => {
                 let (taken, rest) = bytes
@@ -200,7 +200,7 @@ impl<'a> Source<'a> {
             value
         };
         usize::try_from(value)
-            .map_err(|_| ReadError::malformed("an array of data", "its size is below zero"))
+            .map_err(|_| ReadError::malformed("a data array", "its size is negative"))
     }
 
     /// The numbers behind the header.
@@ -226,7 +226,7 @@ impl<'a> Source<'a> {
             crate::read::check_bytes((all.len() as u64).saturating_add(limit as u64))?;
             let packed = self.take(size)?;
             let plain = decompress_to_vec_zlib_with_limit(&packed, limit).map_err(|error| {
-                let place = format!("block {} of an array of data", block + 1);
+                let place = format!("block {} of a data array", block + 1);
                 ReadError::malformed(place, format!("it cannot be decompressed ({error})"))
             })?;
             all.extend(plain);
@@ -253,8 +253,8 @@ fn decode_group<'a>(text: &'a [u8], out: &mut Vec<u8>) -> Result<&'a [u8], ReadE
             _ if byte.is_ascii_whitespace() => continue,
             b'<' => break,
             _ => {
-                let problem = "a letter that is not of base64";
-                return Err(ReadError::malformed("an array of data", problem));
+                let problem = "a character that is not valid base64";
+                return Err(ReadError::malformed("a data array", problem));
             }
         };
         bits = bits << 6 | u32::from(value);
@@ -264,7 +264,7 @@ fn decode_group<'a>(text: &'a [u8], out: &mut Vec<u8>) -> Result<&'a [u8], ReadE
         }
     }
     if letters < 4 || padding > 2 {
-        return Err(ReadError::truncated("an array of data in base64"));
+        return Err(ReadError::truncated("a base64 data array"));
     }
     let [_, bytes @ ..] = bits.to_be_bytes();
     out.extend(&bytes[..3 - padding]);

@@ -21,7 +21,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<TetInput, ReadError> {
             b"Dimension" => {
                 let dimension = cursor.integer(4, "Dimension")?;
                 if dimension != 3 {
-                    let problem = format!("a mesh of dimension {dimension}; a body needs 3");
+                    let problem = format!("the mesh has dimension {dimension}; it must have 3");
                     return Err(cursor.malformed(problem));
                 }
             }
@@ -54,7 +54,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<TetInput, ReadError> {
         }
     }
     if !ended {
-        log::warn!("the .mesh file has no “End”: it may be cut off");
+        log::warn!("the .mesh file has no “End” and may be truncated");
     }
     builder.finish()
 }

@@ -43,7 +43,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<TetInput, ReadError> {
                 cursor.skip_past(&mark);
             }
             _ => {
-                let problem = format!("a section ($…) was expected, not “{}”", shown(section));
+                let problem = format!("expected a section ($…), found “{}”", shown(section));
                 return Err(cursor.malformed(problem));
             }
         }
@@ -65,11 +65,11 @@ fn format(cursor: &mut Cursor<'_>) -> Result<bool, ReadError> {
     let binary = cursor.integer(4, inside)? != 0;
     let size = cursor.integer(4, inside)?;
     if !(version == 4.1 || (2.0..3.0).contains(&version)) {
-        let asked = format!("MSH version {version}; known are 2.2 and 4.1: save it as one of them");
+        let asked = format!("MSH version {version} is not supported; save the mesh as version 2.2 or 4.1");
         return Err(cursor.malformed(asked));
     }
     if size != 8 {
-        return Err(cursor.malformed(format!("numbers of {size} bytes; they must have 8")));
+        return Err(cursor.malformed(format!("numbers have {size} bytes; they must have 8")));
     }
     if binary {
         cursor.rest_of_line();
@@ -78,7 +78,7 @@ fn format(cursor: &mut Cursor<'_>) -> Result<bool, ReadError> {
         cursor.coding = match one {
             1 => Coding::Little,
             0x0100_0000 => Coding::Big,
-            _ => return Err(cursor.malformed("the number that tells the byte order is not 1")),
+            _ => return Err(cursor.malformed("the byte-order marker is not 1")),
         };
     }
     Ok(version > 4.0)
@@ -129,10 +129,10 @@ pub(super) fn kind(cursor: &Cursor<'_>, kind: i64) -> Result<(usize, Use), ReadE
         6 | 13 | 18 => return Err(other_cells("prisms")),
         7 | 14 | 19 => return Err(other_cells("pyramids")),
         20..=31 => {
-            let needs = "elements of third order or above";
+            let needs = "elements of third or higher order";
             return Err(ReadError::Unsupported(needs.into()));
         }
-        _ => return Err(cursor.malformed(format!("element type {kind} is not known"))),
+        _ => return Err(cursor.malformed(format!("element type {kind} is unknown"))),
     })
 }
 

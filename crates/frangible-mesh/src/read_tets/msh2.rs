@@ -41,7 +41,7 @@ pub(super) fn elements(
         let tags = cursor.count(4, inside)?;
         let (node_count, usage) = kind(cursor, element_kind)?;
         if block == 0 {
-            return Err(cursor.malformed("a block of no elements"));
+            return Err(cursor.malformed("an element block is empty"));
         }
         for _ in 0..block {
             if !text {

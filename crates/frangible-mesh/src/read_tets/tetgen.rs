@@ -64,7 +64,7 @@ fn indices(cursor: &Cursor<'_>, row: &[f64], count: usize) -> Result<Vec<u64>, R
             if index as f64 == x {
                 Ok(index)
             } else {
-                Err(ends(&format!("{x} is no number of a node or an element")))
+                Err(ends(&format!("{x} is not a valid node or element number")))
             }
         })
         .collect()
@@ -105,7 +105,7 @@ fn elements(bytes: &[u8], builder: &mut Builder) -> Result<bool, ReadError> {
         Some(4.0) => 4,
         Some(10.0) => 10,
         Some(size) => {
-            let problem = format!("tetrahedra of {size} nodes; they must have 4 or 10");
+            let problem = format!("tetrahedra have {size} nodes; they must have 4 or 10");
             return Err(ReadError::malformed("the first line", problem));
         }
     };

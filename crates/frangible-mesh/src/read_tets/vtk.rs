@@ -22,7 +22,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<TetInput, ReadError> {
     let coding = match cursor.word() {
         Some(b"ASCII") => Coding::Text,
         Some(b"BINARY") => Coding::Big,
-        _ => return Err(cursor.malformed("ASCII or BINARY was expected")),
+        _ => return Err(cursor.malformed("expected ASCII or BINARY")),
     };
     let mut grid = Grid {
         coding,
@@ -60,7 +60,7 @@ impl Grid {
                 b"DATASET" => {
                     let kind = cursor.word().unwrap_or_default();
                     if kind != b"UNSTRUCTURED_GRID" {
-                        let needs = format!("“{}” to be an UNSTRUCTURED_GRID", shown(kind));
+                        let needs = format!("the dataset is “{}”; it must be UNSTRUCTURED_GRID", shown(kind));
                         return Err(cursor.malformed(needs));
                     }
                 }
@@ -83,7 +83,7 @@ impl Grid {
                 _ if tuples > 0 => {
                     if !self.attribute(cursor, keyword, tuples, of_cells)? {
                         log::warn!(
-                            "VTK attributes from “{}” on are passed over",
+                            "VTK attributes from “{}” on are ignored",
                             shown(keyword)
                         );
                         return Ok(());
@@ -91,11 +91,11 @@ impl Grid {
                 }
                 b"FIELD" => {
                     if !self.attribute(cursor, keyword, 0, false)? {
-                        return Err(cursor.malformed("a FIELD of a type that is not known"));
+                        return Err(cursor.malformed("a FIELD has an unknown type"));
                     }
                 }
                 _ => {
-                    let problem = format!("“{}” is not known here", shown(keyword));
+                    let problem = format!("the keyword “{}” is unknown", shown(keyword));
                     return Err(cursor.malformed(problem));
                 }
             }
@@ -278,7 +278,7 @@ fn width_of(kind: &[u8]) -> Option<usize> {
 pub(super) fn unsigned(values: Vec<i64>) -> Result<Vec<u64>, ReadError> {
     let unsigned = |value: i64| {
         u64::try_from(value)
-            .map_err(|_| ReadError::malformed("the cells", format!("{value} is below zero")))
+            .map_err(|_| ReadError::malformed("the cells", format!("{value} is negative")))
     };
     values.into_iter().map(unsigned).collect()
 }

@@ -85,7 +85,7 @@ impl Cells {
                 _ => shifted.len(),
             };
             if shifted.len() != wanted {
-                let problem = format!("it has {} nodes, its type has {wanted}", shifted.len());
+                let problem = format!("it has {} nodes, but its type has {wanted}", shifted.len());
                 return Err(wrong(problem));
             }
             match kind {
@@ -98,7 +98,7 @@ impl Cells {
                 14 | 27 | 37 | 74 => return Err(other_cells("pyramids")),
                 42 => return Err(other_cells("polyhedra")),
                 _ => {
-                    let needs = format!("cells of VTK's type {kind}");
+                    let needs = format!("cells of VTK type {kind}");
                     return Err(ReadError::Unsupported(needs));
                 }
             }

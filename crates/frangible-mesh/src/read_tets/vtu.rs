@@ -46,7 +46,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<TetInput, ReadError> {
     }
     let settings = file
         .settings
-        .ok_or_else(|| ReadError::malformed("line 1", "a VTU file has a <VTKFile> element"))?;
+        .ok_or_else(|| ReadError::malformed("line 1", "a VTU file must have a <VTKFile> element"))?;
     let mut builder = Builder::default();
     let (mut nodes, mut done) = (0, 0);
     for piece in &pieces {
@@ -117,7 +117,7 @@ impl<'a> Piece<'a> {
         let layout = |tag: &Option<Tag<'a>>, name: &str| match tag {
             Some(tag) => Layout::read(tag, arrays, settings),
             None => {
-                let problem = format!("it has no array of {name}");
+                let problem = format!("it has no array {name}");
                 Err(ReadError::malformed("a <Piece>", problem))
             }
         };

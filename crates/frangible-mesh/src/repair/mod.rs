@@ -38,7 +38,7 @@ pub enum RepairError {
     NoArea(usize),
     /// All in a plane.
     #[error(
-        "the mesh is flat: all its vertices lie in one plane; a solid needs thickness, extrude it"
+        "the mesh is flat: all its vertices lie in one plane; extrude it to give it a thickness"
     )]
     Flat,
     /// NaN, infinite, or absurdly far away.

@@ -9,7 +9,7 @@ pub struct RepairReport {
     pub vertices_out: usize,
     /// Triangles after.
     pub faces_out: usize,
-    /// Faces of fewer than three corners, which the reader has passed over.
+    /// Faces with fewer than three vertices, which the reader has passed over.
     pub skipped: usize,
     /// Vertices merged into others at the same place; texture seams are the usual reason.
     pub welded: usize,
@@ -58,15 +58,15 @@ impl fmt::Display for RepairReport {
         let parts = [
             counted(
                 self.skipped,
-                "passed over ",
+                "skipped ",
                 "face",
                 "faces",
-                " of fewer than three corners",
+                " with fewer than three vertices",
             ),
             counted(self.welded, "welded ", "vertex", "vertices", ""),
-            face(self.degenerate, "dropped empty: "),
-            face(self.duplicate, "dropped doubled: "),
-            face(self.flipped, "turned "),
+            face(self.degenerate, "dropped degenerate: "),
+            face(self.duplicate, "dropped duplicate: "),
+            face(self.flipped, "flipped "),
             counted(self.boundary_loops, "", "hole remains", "holes remain", ""),
             counted(
                 self.non_manifold_edges,

@@ -25,11 +25,11 @@ const SAME_HIT: f64 = 1e-9;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SolidError {
     /// No triangle at all, or more than can be counted.
-    #[error("the surface has {0} triangles; give it between 1 and 2^30")]
+    #[error("the surface has {0} triangles; it must have 1 to 2^30")]
     TriangleCount(usize),
     /// A corner that does not exist.
     #[error(
-        "triangle {triangle} uses vertex {vertex}, but there are only {count}; check the index of that corner"
+        "triangle {triangle} refers to vertex {vertex}, but there are only {count}; check its vertex indices"
     )]
     Index {
         /// The triangle.
@@ -54,13 +54,12 @@ pub enum SolidError {
     Size(f64),
     /// Every triangle is a line or a point.
     #[error(
-        "none of the {0} triangles has an area; give at least one whose corners are not in line"
+        "none of the {0} triangles has an area; give at least one whose vertices are not collinear"
     )]
     NoArea(usize),
     /// Flat, or the sides cancel.
     #[error(
-        "the surface encloses nothing: its winding number reaches {highest:.3}, and inside a body it exceeds 0.5; \
-         close the sheet, give it a thickness, or turn its faces the same way out"
+        "the surface does not enclose a volume: its winding number reaches only {highest:.3}, but inside a body it exceeds 0.5; close the surface, give it a thickness, or orient its faces consistently"
     )]
     NoInside {
         /// The highest winding number found.

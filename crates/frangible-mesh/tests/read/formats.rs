@@ -140,7 +140,7 @@ fn faces_of_fewer_than_three_corners_are_passed_over_and_counted() {
     let (surface, report) = frangible_mesh::repair(&mesh).unwrap();
     assert_eq!(surface.triangles.len(), 4);
     let note = report.to_string();
-    assert_eq!(note, "passed over 3 faces of fewer than three corners");
+    assert_eq!(note, "skipped 3 faces with fewer than three vertices");
     let ply = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 5\n\
                property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n2 0 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
     let mesh = read(MeshFormat::Ply, ply);

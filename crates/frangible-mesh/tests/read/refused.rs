@@ -33,11 +33,11 @@ fn a_file_cut_anywhere_is_an_error_or_a_smaller_mesh() {
         }
     }
     let cut = |format, bytes: &[u8]| message(format, &bytes[..bytes.len() - 20]);
-    assert!(cut(MeshFormat::Stl, &stl(b"")).contains("cut off: it ends inside facet 4 of 4"));
-    assert!(cut(MeshFormat::Ply, &ply_binary(true)).contains("cut off: it ends inside face 3"));
+    assert!(cut(MeshFormat::Stl, &stl(b"")).contains("truncated: it ends inside facet 4 of 4"));
+    assert!(cut(MeshFormat::Ply, &ply_binary(true)).contains("truncated: it ends inside face 3"));
     assert!(
         cut(MeshFormat::Gltf, &glb(&gltf(ONE_NODE, "")))
-            .contains("cut off: it ends inside the binary chunk")
+            .contains("truncated: it ends inside the binary chunk")
     );
 }
 
@@ -99,7 +99,7 @@ fn damaged_files_say_what_is_wrong_where() {
         (
             MeshFormat::Ply,
             "ply\nformat dense 1.0\n".into(),
-            "line 2: “format dense 1.0” is no PLY header line",
+            "line 2: “format dense 1.0” is not a valid PLY header line",
         ),
         (
             MeshFormat::Ply,
@@ -119,7 +119,7 @@ fn damaged_files_say_what_is_wrong_where() {
         (
             MeshFormat::Gltf,
             gltf(ONE_NODE, r#","uri":"a.bin""#),
-            "which cannot be read from memory",
+            "a separate file",
         ),
         (
             MeshFormat::Gltf,
@@ -154,7 +154,7 @@ fn a_film_of_a_break_is_no_body() {
         glb(&sound.replace(r#""meshes":[{"#, &name))
     };
     let film = named("Frangible 0.1.0", "glass piece 1");
-    assert!(message(MeshFormat::Gltf, film).contains("holds 1 of its pieces"));
+    assert!(message(MeshFormat::Gltf, film).contains("an exported break with 1 pieces"));
     for (generator, name) in [("Blender", "glass piece 1"), ("Frangible 0.1.0", "glass")] {
         let mesh = read(MeshFormat::Gltf, named(generator, name));
         assert_eq!(mesh.triangles.len(), 4);
@@ -168,7 +168,7 @@ fn damaged_gltf_says_what_is_wrong_where() {
         (
             r#""count":4"#,
             r#""count":5000"#,
-            "cut off: it ends inside accessor 0",
+            "truncated: it ends inside accessor 0",
         ),
         (
             r#""count":4"#,
@@ -178,7 +178,7 @@ fn damaged_gltf_says_what_is_wrong_where() {
         (
             r#""byteLength":48"#,
             r#""byteLength":4800"#,
-            "cut off: it ends inside buffer view 0",
+            "truncated: it ends inside buffer view 0",
         ),
         (
             r#""count":4"#,
@@ -188,17 +188,17 @@ fn damaged_gltf_says_what_is_wrong_where() {
         (
             r#""POSITION":0"#,
             r#""POSITION":7"#,
-            "accessor 7: there is none",
+            "accessor 7: it does not exist",
         ),
         (
             r#""mesh":0"#,
             r#""mesh":0,"children":[0]"#,
-            "node 0: it is reached twice",
+            "node 0: it has two parents",
         ),
         (
             r#""material":0"#,
             r#""material":3"#,
-            "material 3: there is none",
+            "material 3: it does not exist",
         ),
         (
             r#""asset""#,
@@ -223,7 +223,7 @@ fn a_missing_file_suggests_its_neighbour() {
     };
     assert!(message("stanford-buny.obj").ends_with("did you mean stanford-bunny.obj?"));
     assert!(message("teapot.ply").ends_with("teapot.ply"));
-    assert!(message(".").ends_with("is not a file; name a mesh file inside it"));
+    assert!(message(".").ends_with("is not a file; give the path of a mesh file"));
     assert!(matches!(
         read_mesh(Path::new("")),
         Err(ReadError::Missing { .. })

@@ -156,7 +156,7 @@ fn binary_stl_counts_by_its_length_where_its_count_is_wrong() {
         }
         let cut = message(MeshFormat::Stl, counted(9, b""));
         assert!(
-            cut.contains("cut off: it ends inside facet 5 of 9"),
+            cut.contains("truncated: it ends inside facet 5 of 9"),
             "{cut}"
         );
         let none = &counted(0, b"")[..84];

@@ -84,14 +84,14 @@ pub(super) fn read<const N: usize>(
 ) -> Result<Vec<[f64; N]>, ReadError> {
     let place = format!("accessor {}", index.value());
     let bad = |problem: &str| ReadError::malformed(place.clone(), problem);
-    let accessor = root.get(index).ok_or_else(|| bad("there is none"))?;
+    let accessor = root.get(index).ok_or_else(|| bad("it does not exist"))?;
     let (Checked::Valid(kind), Checked::Valid(shape)) = (accessor.component_type, accessor.type_)
     else {
         return Err(bad("its type is unknown"));
     };
     let is_matrix = matches!(shape, Type::Mat2 | Type::Mat3 | Type::Mat4);
     if is_matrix || shape.multiplicity() != N {
-        return Err(bad(&format!("its rows should have {N} numbers")));
+        return Err(bad(&format!("its elements must have {N} components")));
     }
     check_vertices(accessor.count.0)?;
     let count = accessor.count.0 as usize;
@@ -105,7 +105,7 @@ pub(super) fn read<const N: usize>(
         None if accessor.sparse.is_some() && count <= buffers.bytes() => vec![[0.0; N]; count],
         None if accessor.sparse.is_some() => {
             let problem =
-                format!("it has {count} rows, more than the buffers have bytes; export it anew");
+                format!("it has {count} elements, more than the buffers have bytes; export the file again");
             return Err(bad(&problem));
         }
         None => return Err(bad("it has no data; export it with its buffer")),
@@ -126,7 +126,7 @@ pub(super) fn read_colors(
     let place = || format!("accessor {}", index.value());
     let accessor = root
         .get(index)
-        .ok_or_else(|| ReadError::malformed(place(), "there is none"))?;
+        .ok_or_else(|| ReadError::malformed(place(), "it does not exist"))?;
     let mut rows = match accessor.type_ {
         Checked::Valid(Type::Vec3) => read::<3>(root, buffers, index)?
             .into_iter()
@@ -134,7 +134,7 @@ pub(super) fn read_colors(
             .collect(),
         Checked::Valid(Type::Vec4) => read::<4>(root, buffers, index)?,
         _ => {
-            let problem = "it holds colours; its rows should have 3 or 4 numbers";
+            let problem = "it holds colours, so its elements must have 3 or 4 components";
             return Err(ReadError::malformed(place(), problem));
         }
     };

@@ -44,7 +44,7 @@ impl<'a> Buffers<'a> {
         let place = || format!("buffer view {}", index.value());
         let view = root
             .get(index)
-            .ok_or_else(|| ReadError::malformed(place(), "there is none"))?;
+            .ok_or_else(|| ReadError::malformed(place(), "it does not exist"))?;
         let start = view.byte_offset.map_or(0, |offset| offset.0);
         let range = || {
             let end = start.checked_add(view.byte_length.0)?;
@@ -80,11 +80,11 @@ fn content<'a>(
     }
     if is_address(uri) {
         return Err(bad(
-            "it is an address, not a file; download it into the folder of the glTF and name it there",
+            "it is a web address, not a file; download it into the folder of the glTF and refer to it by its file name",
         ));
     }
     let folder = folder.ok_or_else(|| {
-        bad("it is a file of its own, which cannot be read from memory; use .glb")
+        bad("it is a separate file, which is not available to a glTF read from memory; use .glb")
     })?;
     let path = PathBuf::from(percent_decoded(uri));
     let is_inside = |part: Component| matches!(part, Component::Normal(_) | Component::CurDir);

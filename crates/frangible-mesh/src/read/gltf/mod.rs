@@ -32,7 +32,7 @@ pub(crate) fn parse(bytes: &[u8], folder: Option<&Path>) -> Result<InputMesh, Re
         (bytes, None)
     };
     if !json.trim_ascii_start().starts_with(b"{") {
-        let problem = "a GLB begins with the letters “glTF”, a glTF with “{”; this is neither";
+        let problem = "the file is neither a GLB, which begins with “glTF”, nor a glTF, which begins with “{”";
         return Err(ReadError::malformed("the first bytes", problem));
     }
     let root: Root = gltf_json::deserialize::from_slice(json).map_err(|error| {

@@ -42,7 +42,7 @@ impl<'a> Meshes<'a> {
         let mesh = self
             .root
             .get(index)
-            .ok_or_else(|| ReadError::malformed(place(), "there is none"))?;
+            .ok_or_else(|| ReadError::malformed(place(), "it does not exist"))?;
         // Primitives often share their vertices; those are taken once per instance.
         let mut added: BTreeMap<Streams, (u32, u32)> = BTreeMap::new();
         for primitive in &mesh.primitives {
@@ -178,7 +178,7 @@ impl<'a> Meshes<'a> {
         if material != NO_MATERIAL && material as usize >= self.root.materials.len() {
             return Err(ReadError::malformed(
                 format!("material {material}"),
-                "there is none",
+                "it does not exist",
             ));
         }
         self.mesh

@@ -37,9 +37,9 @@ pub(super) fn instances(root: &Root) -> Result<Vec<Instance<'_>>, ReadError> {
     let mut instances = Vec::new();
     while let Some((i, above)) = open.pop() {
         let bad = |problem: &str| ReadError::malformed(format!("node {i}"), problem);
-        let node = root.nodes.get(i).ok_or_else(|| bad("there is none"))?;
+        let node = root.nodes.get(i).ok_or_else(|| bad("it does not exist"))?;
         if std::mem::replace(&mut seen[i], true) {
-            return Err(bad("it is reached twice; each node may have one parent"));
+            return Err(bad("it has two parents; a node may have only one"));
         }
         let transform = above * local(node);
         instances.extend(node.mesh.map(|mesh| Instance {

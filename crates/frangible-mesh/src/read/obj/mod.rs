@@ -127,7 +127,7 @@ impl Obj {
     fn no_color(&mut self, line: usize) -> Option<[f32; 4]> {
         if !std::mem::replace(&mut self.warned, true) {
             log::warn!(
-                "line {line}: what follows the coordinates is no colour “r g b”; it is passed over"
+                "line {line}: the values after the coordinates are not a colour “r g b”; they are ignored"
             );
         }
         None
@@ -162,7 +162,7 @@ impl Obj {
     /// `v`, `v/vt`, `v//vn` or `v/vt/vn`.
     fn corner(&self, word: &[u8], line: usize) -> Result<Corner, ReadError> {
         let not_a_corner = || {
-            let problem = format!("“{}” is not a corner of a face", shown(word));
+            let problem = format!("“{}” is not a valid vertex of a face", shown(word));
             ReadError::malformed(format!("line {line}"), problem)
         };
         let mut parts = word.split(|&b| b == b'/');

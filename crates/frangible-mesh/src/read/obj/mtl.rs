@@ -40,7 +40,7 @@ impl Materials {
             .any(|part| !matches!(part, Component::Normal(_) | Component::CurDir))
         {
             log::warn!(
-                "material library {} is outside the folder of the mesh: not read",
+                "material library {} is outside the folder of the mesh and is not read",
                 name.display()
             );
             return;

@@ -92,7 +92,7 @@ impl Header {
             let bad = || {
                 ReadError::malformed(
                     format!("line {line}"),
-                    format!("“{}” is no PLY header line", shown(text)),
+                    format!("“{}” is not a valid PLY header line", shown(text)),
                 )
             };
             if line == 1 {
