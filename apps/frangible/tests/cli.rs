@@ -131,7 +131,7 @@ fn a_folder_that_cannot_be_written_is_refused_before_the_work() {
         );
         assert!(
             message.contains(&*out.to_string_lossy())
-                && message.contains("file` is no folder")
+                && message.contains("file` is not a folder")
                 && message.contains("--out"),
             "{message}"
         );

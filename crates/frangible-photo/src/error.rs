@@ -36,7 +36,7 @@ pub enum PhotoError {
     #[error("the sheet has no cell; give it at least one frame and one column")]
     EmptySheet,
     /// The caller's `go_on` returned false.
-    #[error("the picture was given up")]
+    #[error("the picture was cancelled")]
     Cancelled,
     /// A file or folder that cannot be made.
     #[error("`{}` cannot be {doing}: {source}", path.display())]
@@ -53,12 +53,12 @@ pub enum PhotoError {
     Write(#[from] WriteError),
     /// An MP4 without the program that makes it.
     #[error(
-        "an MP4 takes the program `ffmpeg`, which is not there; install it (Debian: apt-get install ffmpeg, macOS: brew install ffmpeg), or make a GIF or single pictures"
+        "writing an MP4 requires the program `ffmpeg`, which was not found; install it (Debian: apt-get install ffmpeg, macOS: brew install ffmpeg), or write a GIF or separate pictures"
     )]
     NoFfmpeg,
     /// A WebP in a build without its encoder.
     #[error(
-        "this build writes no WebP films; name the film .gif or .mp4, or build with the feature `webp` (of the program `frangible`: `view`)"
+        "this build cannot write WebP films; write a .gif or .mp4, or build with the feature `webp` (for the program `frangible`: `view`)"
     )]
     NoWebP,
     /// The picture could not be compressed.

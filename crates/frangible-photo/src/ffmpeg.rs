@@ -88,7 +88,7 @@ impl Ffmpeg {
         if !done.status.success() {
             let _ = std::fs::remove_file(&both);
             let said = String::from_utf8_lossy(&done.stderr);
-            let said = format!("ffmpeg ended with {}: {}", done.status, said.trim());
+            let said = format!("ffmpeg failed with {}: {}", done.status, said.trim());
             return Err(failed(std::io::Error::other(said)));
         }
         std::fs::rename(&both, &self.part).map_err(failed)
@@ -105,7 +105,7 @@ impl Ffmpeg {
         if status.success() {
             return Ok(());
         }
-        let said = format!("ffmpeg ended with {status}: {}", said.trim());
+        let said = format!("ffmpeg failed with {status}: {}", said.trim());
         Err(unwritten(&self.path, std::io::Error::other(said)))
     }
 }

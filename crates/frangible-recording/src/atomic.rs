@@ -21,7 +21,7 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
         source,
     };
     let Some(name) = path.file_name() else {
-        return Err(fail(std::io::Error::other("the path names no file")));
+        return Err(fail(std::io::Error::other("the path does not name a file")));
     };
     // The process number keeps two programs that write one file apart.
     let mut sibling_name = OsString::from(name);

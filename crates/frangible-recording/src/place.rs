@@ -21,7 +21,7 @@ pub fn make_folder(folder: &Path, names: &[String], option: &str) -> Result<bool
         .find(|part| part.exists() && !part.is_dir());
     if let Some(file) = file {
         return Err(format!(
-            "{option} is `{}`, but `{}` is no folder; choose another with {option} DIR",
+            "{option} is `{}`, but `{}` is not a folder; choose another with {option} DIR",
             folder.display(),
             file.display()
         ));
@@ -32,7 +32,7 @@ pub fn make_folder(folder: &Path, names: &[String], option: &str) -> Result<bool
         let path = folder.join(name);
         if path.is_dir() {
             return Err(format!(
-                "`{}` is a folder, and a file of that name is to be written; move it, or choose another {option} DIR",
+                "`{}` is a folder, but a file of that name has to be written; move the folder, or choose another {option} DIR",
                 path.display()
             ));
         }
@@ -47,7 +47,7 @@ pub fn make_folder(folder: &Path, names: &[String], option: &str) -> Result<bool
 pub fn try_file(path: &Path) -> Result<(), String> {
     if path.is_dir() {
         return Err(format!(
-            "`{}` is a folder; name a file with -o",
+            "`{}` is a folder; give the name of a file with -o",
             path.display()
         ));
     }

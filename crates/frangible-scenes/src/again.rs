@@ -30,7 +30,7 @@ pub(crate) fn shards() -> Result<Scene, SceneError> {
     };
     let mut scene = Scene {
         name: "shards".into(),
-        summary: "a porcelain plate dropped on its edge, whose shards break again as they land"
+        summary: "a porcelain plate dropped on its edge, whose shards break again when they land"
             .into(),
         seed: 3,
         ..again(plate)
@@ -54,7 +54,7 @@ pub(crate) fn five_blows() -> Result<Scene, SceneError> {
     });
     Ok(Scene {
         name: "five-blows".into(),
-        summary: "a brick under a hammer, five blows".into(),
+        summary: "a brick hit five times by a hammer".into(),
         projectiles: blows.collect(),
         ..again(brick)
     })
@@ -138,7 +138,7 @@ pub(crate) fn crockery() -> Result<Scene, SceneError> {
     let kind = bodies[0].clone();
     Ok(Scene {
         name: "crockery".into(),
-        summary: "bowls and a vase on a porcelain shelf, and a heavy ball that comes down on it"
+        summary: "bowls and a vase on a porcelain shelf, hit from above by a heavy ball"
             .into(),
         bodies,
         projectiles: vec![ball],

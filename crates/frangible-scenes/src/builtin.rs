@@ -183,7 +183,7 @@ pub fn scene(name: &str) -> Result<Scene, SceneError> {
         "window" => Ok(held(
             build(
                 name,
-                "a window pane held in its frame, hit by a steel ball",
+                "a window pane fixed in its frame, hit by a steel ball",
                 Shape::plate(0.4, 0.4, 0.004),
                 "glass",
                 80,
@@ -201,7 +201,7 @@ pub fn scene(name: &str) -> Result<Scene, SceneError> {
         "shelf" => Ok(held(
             build(
                 name,
-                "a glass shelf on two brackets, a heavy ball dropped on its middle",
+                "a glass shelf on two brackets, hit in its middle by a heavy falling ball",
                 Shape::plate(0.5, 0.14, 0.006),
                 "glass",
                 60,

@@ -11,11 +11,11 @@ pub enum SceneError {
     /// No built-in scene of that name.
     #[error("there is no scene `{name}`{hint}; scenes: {known}")]
     UnknownScene {
-        /// Name asked for.
+        /// Requested name.
         name: String,
         /// “, did you mean …”, or nothing.
         hint: String,
-        /// The names there are.
+        /// Names of all scenes.
         known: String,
     },
     /// A quantity of the scene that cannot be used.
@@ -28,10 +28,10 @@ pub enum SceneError {
         /// The values allowed, with their unit.
         must: &'static str,
     },
-    /// Two settings that cannot stand together, or one that lacks another.
+    /// Two settings that exclude each other, or one that requires another.
     #[error("{0}")]
     Clash(String),
-    /// A fault of one item of several, as of one of the bodies.
+    /// An error in one item of a list, such as one of the bodies.
     #[error("{item}: {source}")]
     Item {
         /// The item, by its list and number.
@@ -39,7 +39,7 @@ pub enum SceneError {
         /// Its error.
         source: Box<SceneError>,
     },
-    /// A scene file that cannot be understood.
+    /// A scene file with a syntax error or an invalid setting.
     #[error("{file} line {line}: {problem}")]
     Toml {
         /// The file, as it was named.
@@ -52,20 +52,20 @@ pub enum SceneError {
     /// A file that cannot be read.
     #[error("{problem}: {}", path.display())]
     File {
-        /// Path at which it was looked for.
+        /// Path of the file.
         path: PathBuf,
         /// Reason, in words.
         problem: String,
     },
     /// A file of unknown kind.
     #[error(
-        "`{}` has no ending that is known; give a mesh (.obj, .stl, .ply, .gltf, .glb), tetrahedra (.msh, .node, .ele, .vtk, .vtu, .mesh), a baked body (.frangible) or a scene (.toml)",
+        "the file extension of `{}` is unknown; give a mesh (.obj, .stl, .ply, .gltf, .glb), tetrahedra (.msh, .node, .ele, .vtk, .vtu, .mesh), a baked body (.frangible) or a scene (.toml)",
         .0.display()
     )]
     UnknownKind(PathBuf),
-    /// A mesh whose size cannot be meant.
+    /// A mesh that is implausibly large or small.
     #[error(
-        "the body is {longest} m long if the unit of `{}` is the metre; give its longest side in metres, 0.001 to 3, for example --size {example} (in a scene file: size = {example})",
+        "with the metre as the unit of `{}`, the body is {longest} m long; give its longest side in metres, 0.001 to 3, for example --size {example} (in a scene file: size = {example})",
         path.display()
     )]
     Size {
@@ -73,7 +73,7 @@ pub enum SceneError {
         path: PathBuf,
         /// Its longest side in its own unit.
         longest: f64,
-        /// A size that may be meant, m.
+        /// A plausible size, m.
         example: f64,
     },
     /// A ball that would start inside the floor or the body.
@@ -96,7 +96,7 @@ pub enum SceneError {
     },
     /// Two bodies that would start inside each other.
     #[error(
-        "`{one}` and `{other}` overlap: one would start {depth_mm:.1} mm deep inside the other; give one of them another `position`"
+        "`{one}` and `{other}` overlap by {depth_mm:.1} mm at the start; change the `position` of one of them"
     )]
     Overlap {
         /// Name of one body.
@@ -107,7 +107,7 @@ pub enum SceneError {
         depth_mm: f32,
     },
     /// The number of baked bodies is not that of the scene's bodies.
-    #[error("the scene has {wanted} bodies, but {given} baked ones were given; bake this scene")]
+    #[error("the scene has {wanted} bodies, but {given} baked bodies were given; bake this scene")]
     BakedBodies {
         /// Bodies of the scene.
         wanted: usize,
@@ -117,43 +117,43 @@ pub enum SceneError {
     /// A file of a baked body that cannot be read or written.
     #[error(transparent)]
     Asset(#[from] frangible::internals::AssetFileError),
-    /// A baked body that cannot be of the material or size asked for.
+    /// A baked body that cannot be changed to the requested material or size.
     #[error("{}: {source}{hint}", path.display())]
     Rescale {
         /// Its file.
         path: PathBuf,
         /// Reason.
         source: Box<frangible_bake::RescaleError>,
-        /// Command to type, or nothing.
+        /// Command that bakes the body again, or empty.
         hint: String,
     },
     /// Walls that more tetrahedra would resolve.
     #[error(
-        "`{body}` has walls of {wall_mm:.3} mm, which need about {needed} tetrahedra; ask for them with --resolution {needed} (in a scene file: resolution = {needed})"
+        "`{body}` has walls of {wall_mm:.3} mm, which need about {needed} tetrahedra; set --resolution {needed} (in a scene file: resolution = {needed})"
     )]
     ThinWalls {
         /// Name of the body.
         body: String,
         /// Their thickness, mm.
         wall_mm: f64,
-        /// Tetrahedra they need.
+        /// Number of tetrahedra that they need.
         needed: usize,
     },
     /// Walls that no allowed number of tetrahedra resolves.
     #[error(
-        "`{body}` has walls of {wall_mm:.3} mm, too thin beside its size for the {limit} tetrahedra there may be; make them thicker or the body smaller across"
+        "`{body}` has walls of {wall_mm:.3} mm, too thin for a body of its size within the limit of {limit} tetrahedra; make them thicker, or the body smaller"
     )]
     WaferWalls {
         /// Name of the body.
         body: String,
         /// Their thickness, mm.
         wall_mm: f64,
-        /// Most tetrahedra there may be.
+        /// Largest allowed number of tetrahedra.
         limit: usize,
     },
-    /// A body to be baked, in a build without the bake.
+    /// An unbaked body, in a build that cannot bake.
     #[error(
-        "`{body}` would have to be baked, which this build cannot do; give it baked (.frangible)"
+        "`{body}` is not baked, and this build cannot bake; give it as a baked body (.frangible)"
     )]
     NoBake {
         /// Name of the body.
@@ -162,10 +162,10 @@ pub enum SceneError {
     /// The body could not be baked.
     #[error("baking failed: {0}")]
     Bake(#[from] frangible_bake::BakeError),
-    /// The rigid-body world refused something.
-    #[error("simulating failed: {0}")]
+    /// The rigid-body world rejected its input.
+    #[error("the simulation failed: {0}")]
     World(#[from] frangible_rapier::WorldError),
-    /// The fracture model refused something.
+    /// The fracture model rejected its input.
     #[error(transparent)]
     Input(#[from] frangible::InputError),
     /// No such material.

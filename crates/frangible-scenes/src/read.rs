@@ -18,7 +18,7 @@ use crate::source::FileKind;
 const LARGEST: u64 = 1 << 20;
 
 /// Message about a file that is not in memory.
-const NOT_GIVEN: &str = "this file was not given; give it together with the file that names it";
+const NOT_GIVEN: &str = "this file is missing; provide it together with the file that refers to it";
 
 /// Files that scenes are made of.
 #[derive(Clone, Debug, Default)]
@@ -38,11 +38,11 @@ impl Files {
             Ok(0) => "this file is empty".into(),
             Ok(_) if FileKind::of(path)? != kind => match kind {
                 FileKind::Mesh if FileKind::of(path)? == FileKind::Asset => {
-                    "this is a baked body, no mesh; in a scene file it stands under `asset`".into()
+                    "this is a baked body, not a mesh; in a scene file, give it as `asset`".into()
                 }
-                FileKind::Mesh => "this is no mesh (.obj, .stl, .ply, .gltf, .glb, or tetrahedra: .msh, .node, .ele, .vtk, .vtu, .mesh)".into(),
-                FileKind::Asset => "this is no baked body (.frangible)".into(),
-                FileKind::Scene => "this is no scene (.toml)".into(),
+                FileKind::Mesh => "this is not a mesh (.obj, .stl, .ply, .gltf, .glb, or tetrahedra: .msh, .node, .ele, .vtk, .vtu, .mesh)".into(),
+                FileKind::Asset => "this is not a baked body (.frangible)".into(),
+                FileKind::Scene => "this is not a scene (.toml)".into(),
             },
             Ok(_) => return Ok(()),
         };
@@ -58,7 +58,7 @@ impl Files {
             }
             Self::Disk => match fs::metadata(path) {
                 Err(_) if frangible_mesh::is_address(&path.to_string_lossy()) => {
-                    Err("this is an address, not a file; download it first".into())
+                    Err("this is a web address, not a file; download it first".into())
                 }
                 Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
                     Err(match frangible_mesh::nearest_file(path) {
@@ -67,8 +67,8 @@ impl Files {
                     })
                 }
                 Err(error) => Err(format!("the file cannot be read ({error})")),
-                Ok(data) if data.is_dir() => Err("this is a folder; name a file in it".into()),
-                Ok(data) if !data.is_file() => Err("this is no ordinary file".into()),
+                Ok(data) if data.is_dir() => Err("this is a folder; give a file in it".into()),
+                Ok(data) if !data.is_file() => Err("this is not a regular file".into()),
                 Ok(data) => Ok(data.len()),
             },
         }
@@ -99,10 +99,10 @@ impl Files {
     pub(crate) fn scene(&self, path: &Path) -> Result<String, SceneError> {
         self.check(path, FileKind::Scene)?;
         if self.length(path).is_ok_and(|length| length > LARGEST) {
-            return Err(wrong(path, "this is too large for a scene (1 MiB)".into()));
+            return Err(wrong(path, "this is too large for a scene (limit: 1 MiB)".into()));
         }
         String::from_utf8(self.bytes(path)?.into_owned())
-            .map_err(|_| wrong(path, "this is no TOML: it is not UTF-8 text".into()))
+            .map_err(|_| wrong(path, "this is not TOML: it is not UTF-8 text".into()))
     }
 
     /// The triangles of a mesh file, in its own unit and axes.

@@ -133,30 +133,30 @@ impl BreakRecord {
         let slides = self.contacts.iter().any(|c| c.friction != Vec3::ZERO);
         if impact && !slides && above(strain, approach) {
             return Some(format!(
-                "{strain} J of strain energy out of {approach} J of approach"
+                "{strain} J of strain energy from an approach energy of {approach} J"
             ));
         }
         if impact && above(cracks, approach) {
             return Some(format!(
-                "{cracks} J of cracks out of {approach} J of approach"
+                "{cracks} J of crack energy from an approach energy of {approach} J"
             ));
         }
         if above(cracks, strain) {
             return Some(format!(
-                "{cracks} J of cracks out of {strain} J of strain energy"
+                "{cracks} J of crack energy from {strain} J of strain energy"
             ));
         }
         let before = self.kinetic_before + self.work.max(0.0);
         if impact && above(r.approach_energy, before) {
             let approach = r.approach_energy;
             return Some(format!(
-                "{approach} J of approach out of {before} J of motion and work"
+                "{approach} J of approach energy from {before} J of kinetic energy and work"
             ));
         }
         // Cracks under a resting load are paid by the work of gravity that bent the body before.
         let after = self.kinetic_after + if impact { self.cracks_together } else { 0.0 };
         above(after, before)
-            .then(|| format!("{after} J of motion and cracks out of {before} J of motion and work"))
+            .then(|| format!("{after} J of kinetic and crack energy from {before} J of kinetic energy and work"))
     }
 }
 

@@ -68,7 +68,7 @@ pub(crate) fn phone() -> Result<Scene, SceneError> {
     };
     Ok(Scene {
         name: "phone".into(),
-        summary: "a telephone that falls on a corner of its cover glass".into(),
+        summary: "a phone dropped on a corner of its cover glass".into(),
         bodies: vec![glass.clone(), case],
         adhesive: Some(Adhesive {
             strength: 3e6,
@@ -115,7 +115,7 @@ pub(crate) fn tiles() -> Result<Scene, SceneError> {
     bodies.push(wall);
     let mut scene = Scene {
         name: "tiles".into(),
-        summary: "porcelain tiles on a wall of concrete, hit by a steel ball".into(),
+        summary: "porcelain tiles on a concrete wall, hit by a steel ball".into(),
         bodies,
         projectiles: vec![Projectile {
             target: ACROSS + 1,
@@ -175,7 +175,7 @@ pub(crate) fn windscreen() -> Result<Scene, SceneError> {
     };
     let mut scene = Scene {
         name: "windscreen".into(),
-        summary: "a windscreen of two panes that a film holds together, hit by a stone".into(),
+        summary: "a windscreen of two panes bonded by a film, hit by a stone".into(),
         bodies: vec![outer.clone(), inner],
         adhesive: Some(Adhesive {
             strength: 5e6,
@@ -212,7 +212,7 @@ pub(crate) fn ice_sheet() -> Result<Scene, SceneError> {
     };
     let mut scene = Scene {
         name: "ice-sheet".into(),
-        summary: "a sheet of ice held along its rim, and a stone that falls on it".into(),
+        summary: "a sheet of ice supported along its rim, hit by a falling stone".into(),
         look_from: Vec3::new(0.4, 0.7, 1.0),
         duration: 3.0,
         ..Scene::one_body(sheet)

@@ -35,7 +35,7 @@ pub(crate) fn wine_glass() -> Result<Scene, SceneError> {
     };
     Ok(dropped(
         glass,
-        "a wine glass that falls on the edge of its foot",
+        "a wine glass dropped on the edge of its foot",
         1.0,
     ))
 }
@@ -48,7 +48,7 @@ pub(crate) fn bottle() -> Result<Scene, SceneError> {
         ..body("bottle", BodySource::Shape(Shape::bottle()), "glass")?
     };
     let mut scene = Scene {
-        summary: "a bottle hit by a steel ball from a catapult".into(),
+        summary: "a bottle hit by a steel ball from a slingshot".into(),
         look_from: Vec3::new(0.5, 0.45, 1.0),
         ..Scene::one_body(bottle)
     };
@@ -88,7 +88,7 @@ pub(crate) fn statue() -> Result<Scene, SceneError> {
     };
     Ok(dropped(
         statue,
-        "a dancer of marble that falls off a low shelf",
+        "a marble dancer falling off a low shelf",
         0.45,
     ))
 }

@@ -61,10 +61,10 @@ fn energy_that_is_made_is_named() {
     named(|b| b.report.approach_energy *= 1e-6, "approach");
     named(
         |b| b.report.fracture_energy = 1.1 * b.report.peak_strain_energy,
-        "of cracks out of",
+        "of crack energy from",
     );
     named(
         |b| b.kinetic_after = 1.1 * (b.kinetic_before + b.work),
-        "motion and work",
+        "kinetic energy and work",
     );
 }

@@ -46,7 +46,7 @@ fn a_scene_in_memory_finds_its_mesh_there() {
     let alone = given(&[("scene.toml", scene)]);
     let message = refused("scene.toml", &alone);
     assert!(
-        message.contains("given.obj") && message.contains("not given"),
+        message.contains("given.obj") && message.contains("this file is missing"),
         "{message}"
     );
 }

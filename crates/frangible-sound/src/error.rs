@@ -36,7 +36,7 @@ pub enum SoundError {
     },
     /// A number of a body that was never added, or was removed.
     #[error(
-        "there is no body {index}; bodies are numbered from 0 in the order in which they were added, and {count} were"
+        "there is no body {index}; {count} bodies were added, numbered from 0 in that order"
     )]
     NoBody {
         /// The number.

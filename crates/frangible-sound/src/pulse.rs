@@ -64,7 +64,7 @@ impl Pulse {
             finite(|| format!("force {i} of a pulse"), f64::from(force))?;
         }
         let long = self.duration();
-        let range = "at most 10, in s; a body that leans on another is not struck by it";
+        let range = "at most 10, in s; longer contacts are not strikes";
         within(
             || "the duration of a pulse".into(),
             long,

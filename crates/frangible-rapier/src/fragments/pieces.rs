@@ -211,7 +211,7 @@ fn tets_of(body: &Body) -> usize {
 fn made(parent: &Body, portion: &Arc<Portion>, elastic: Option<Elastic>) -> Option<Body> {
     let body = parent.piece(portion, elastic?);
     let body = body
-        .inspect_err(|e| log::warn!("a piece does not break again: {e}"))
+        .inspect_err(|e| log::warn!("a piece cannot break again: {e}"))
         .ok()?;
     body.prepare_for_loads();
     Some(body)

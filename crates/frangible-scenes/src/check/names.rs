@@ -45,7 +45,7 @@ pub(super) fn file_name(key: &'static str, what: &'static str, name: &str) -> Re
     let blank = name.trim() != name || name.is_empty();
     if blank || name.starts_with('.') || name.len() > LONGEST_NAME || name.contains(is_odd) {
         let shown: String = name.chars().take(LONGEST_NAME).collect();
-        let must = "a plain file name without folders, dots in front or special characters";
+        let must = "a plain file name without folders, leading dots or special characters";
         return Err(quantity(
             key,
             what,

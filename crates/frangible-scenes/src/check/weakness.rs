@@ -25,7 +25,7 @@ pub(super) fn check_weakness(body: &BodySpec) -> Result<(), Fault> {
     if !body.paint.is_empty()
         && !matches!(body.source, BodySource::Mesh { .. } | BodySource::Asset(_))
     {
-        let problem = "`paint` needs vertex colours, which a built-in shape has not; give a `mesh`, or weak places by `box`, \
+        let problem = "`paint` needs vertex colours, which a built-in shape does not have; give a `mesh`, or define weak places with `box`, \
                        `sphere`, `plane` or `line`";
         return Err(Fault::new("weakness", SceneError::Clash(problem.into())));
     }

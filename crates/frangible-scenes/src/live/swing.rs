@@ -108,7 +108,7 @@ impl Swing {
         way.try_normalize().ok_or_else(|| SceneError::Quantity {
             what: "the direction of the hammer's blow",
             value: way.to_string(),
-            must: "a vector of some length, in m",
+            must: "a vector of non-zero length, in m",
         })
     }
 }

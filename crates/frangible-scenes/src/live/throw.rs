@@ -51,7 +51,7 @@ impl Throw {
         Err(SceneError::Quantity {
             what: "the throw's direction",
             value: way.to_string(),
-            must: "a vector of some length, in m",
+            must: "a vector of non-zero length, in m",
         })
     }
 }
@@ -71,7 +71,7 @@ impl LiveScene {
             return Err(SceneError::Quantity {
                 what: "the height at which the ball starts",
                 value: format!("{} m", throw.from.y),
-                must: "at least the ball's radius above the floor; look from higher up",
+                must: "at least the ball's radius above the floor; raise the camera",
             });
         }
         let way = throw.through - throw.from;

@@ -24,13 +24,11 @@ pub(super) fn open(
         problem,
     };
     if resolution.is_some() {
-        let problem = "a resolution cannot be chosen: the file's tetrahedra are broken as they are; mesh it anew, or \
-                       give its surface (.stl, .obj) instead";
+        let problem = "the resolution cannot be set: the tetrahedra of the file are used unchanged; mesh the body again, or give its surface (.stl, .obj)";
         return Err(refused(problem.into()));
     }
     if wall.is_some() {
-        let problem = "a wall cannot be chosen: the file's tetrahedra are broken as they are; give its surface (.stl, \
-                       .obj) instead";
+        let problem = "a wall thickness cannot be set: the tetrahedra of the file are used unchanged; give the surface of the body (.stl, .obj)";
         return Err(refused(problem.into()));
     }
     let mut input = read()?;
@@ -47,7 +45,7 @@ pub(super) fn open(
     }
     if !imported.volumes.is_empty() {
         notes.push(format!(
-            "{}: the parts {} get one material: a body has only one",
+            "{}: the parts {} get the same material, because a body has only one",
             path.display(),
             imported.volumes.join(", ")
         ));

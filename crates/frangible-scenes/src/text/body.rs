@@ -40,7 +40,7 @@ pub(super) fn body(table: BodyTable, usual: String, folder: &Path) -> Result<Bod
             "size",
             table.size.is_some(),
             meshed || baked,
-            "`size` is for a `mesh` or an `asset`",
+            "`size` applies only to a `mesh` or an `asset`",
         ),
         (
             "resolution",
@@ -52,13 +52,13 @@ pub(super) fn body(table: BodyTable, usual: String, folder: &Path) -> Result<Bod
             "wall",
             table.wall.is_some(),
             meshed,
-            "`wall` is for a `mesh`; other shapes have walls of their own",
+            "`wall` applies only to a `mesh`; other shapes define their own walls",
         ),
         (
             "up",
             table.up.is_some(),
             meshed,
-            "`up` is for a `mesh`; turn other bodies with `rotation`",
+            "`up` applies only to a `mesh`; turn other bodies with `rotation`",
         ),
     ] {
         if given && !fits {
@@ -87,7 +87,7 @@ pub(super) fn body(table: BodyTable, usual: String, folder: &Path) -> Result<Bod
             return Err(clash("shape", problem));
         }
         _ => {
-            let problem = "a body has one of `shape`, `mesh` and `asset`; remove the others";
+            let problem = "a body has exactly one of `shape`, `mesh` and `asset`; remove the others";
             return Err(clash("shape", problem));
         }
     };
@@ -235,7 +235,7 @@ fn rotation(turns: &[RotationTable]) -> Result<Quat, Fault> {
             (None, None, Some(q)) => Quat::from_array(q.map(|x| x as f32)),
             _ => {
                 let problem =
-                    "a rotation is { axis = \"z\", degrees = 30 } or { quaternion = [x, y, z, w] }";
+                    "a rotation must be { axis = \"z\", degrees = 30 } or { quaternion = [x, y, z, w] }";
                 return Err(clash("rotation", problem));
             }
         };
@@ -268,7 +268,7 @@ fn axis_up(table: &AxisTable) -> Result<Axis, Fault> {
 fn axis_of(key: &'static str, name: &str) -> Result<Axis, Fault> {
     Axis::from_name(name).ok_or_else(|| {
         let hint = did_you_mean(name, ["x", "y", "z"]);
-        let problem = format!("`{}` is no axis{hint}; axes: x, y, z", short(name));
+        let problem = format!("`{}` is not an axis{hint}; axes: x, y, z", short(name));
         Fault::new(key, SceneError::Clash(problem))
     })
 }

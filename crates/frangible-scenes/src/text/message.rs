@@ -33,8 +33,8 @@ fn in_our_words(message: &str) -> String {
         return format!("unknown {what} `{wrong}`{hint}");
     }
     [
-        ("missing field", "there must be a key"),
-        ("duplicate key", "this key is already there"),
+        ("missing field", "missing key"),
+        ("duplicate key", "this key occurs twice"),
         ("expected f64", "expected a number"),
         ("expected usize", "expected a whole number, zero or above"),
         ("expected u64", "expected a whole number, zero or above"),

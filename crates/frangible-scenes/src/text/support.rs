@@ -11,7 +11,7 @@ use crate::source::axes_of;
 
 const KEY: &str = "supports";
 
-const ONE_REGION: &str = "a support has one of `below`, `above`, `side` with `at`, `plane`, `box`, `sphere` and `group`, \
+const ONE_REGION: &str = "a support must have exactly one of `below`, `above`, `side` with `at`, `plane`, `box`, `sphere` and `group`, \
      for example { below = 0.01 }, { side = \"-x\", at = 0.02 } or { group = \"frame\" }";
 
 pub(super) fn support(table: SupportTable) -> Result<Support, Fault> {
@@ -23,7 +23,7 @@ pub(super) fn support(table: SupportTable) -> Result<Support, Fault> {
         (None, None) => {}
         (Some(side), Some(at)) => regions.push(side_of(side, at)?),
         _ => {
-            let problem = "`side` and `at` go together, for example { side = \"-x\", at = 0.02 }";
+            let problem = "`side` and `at` must be given together, for example { side = \"-x\", at = 0.02 }";
             return Err(clash(KEY, problem));
         }
     }
@@ -43,7 +43,7 @@ pub(super) fn support(table: SupportTable) -> Result<Support, Fault> {
     let axes = match table.axes.as_deref() {
         None => [true; 3],
         Some(letters) => axes_of(letters).ok_or_else(|| {
-            clash(KEY, "the axes of a support are some of the letters x, y and z, for example axes = \"xy\"")
+            clash(KEY, "the axes of a support must be some of the letters x, y and z, for example axes = \"xy\"")
         })?,
     };
     let mut regions = regions.into_iter();
@@ -64,7 +64,7 @@ fn side_of(side: &str, at: f64) -> Result<Region, Fault> {
         "y" => 1,
         "z" => 2,
         _ => {
-            let problem = "`side` is one of \"-x\", \"+x\", \"-y\", \"+y\", \"-z\", \"+z\"";
+            let problem = "`side` must be one of \"-x\", \"+x\", \"-y\", \"+y\", \"-z\", \"+z\"";
             return Err(clash(KEY, problem));
         }
     };

@@ -14,7 +14,7 @@ use crate::error::SceneError;
 
 const KEY: &str = "weakness";
 
-const ONE_ZONE: &str = "a weakness has one of `box`, `sphere` with `radius`, `plane`, `line` with `radius`, and `paint`, \
+const ONE_ZONE: &str = "a weakness must have exactly one of `box`, `sphere` with `radius`, `plane`, `line` with `radius`, and `paint`, \
      for example { line = [[0, -0.04, 0], [0, 0.04, 0]], radius = 0.002, strength = 0.3 }";
 
 /// Part of a body that is weaker, or stronger: one zone, or a channel of its vertex colours, and the factors there.
@@ -67,7 +67,7 @@ fn paint(channel: &str, table: WeaknessTable) -> Result<Paint, Fault> {
         let hint = did_you_mean(channel, names);
         let channel = short(channel);
         let problem = format!(
-            "`{channel}` is no channel of a colour{hint}; channels: {}",
+            "`{channel}` is not a colour channel{hint}; channels: {}",
             names.join(", ")
         );
         Fault::new(KEY, SceneError::Clash(problem))
@@ -109,7 +109,7 @@ fn patch(table: WeaknessTable) -> Result<Patch, Fault> {
 
 fn single_factor(given: Option<OneOrTwo>) -> Result<Option<f32>, Fault> {
     let problem =
-        "a zone has one factor each; two, where a colour is 0 and where it is 1, go with `paint`";
+        "a zone takes single factors; pairs, for colour 0 and colour 1, are allowed only with `paint`";
     given
         .map(|g| g.one().ok_or_else(|| clash(KEY, problem)))
         .transpose()

@@ -30,7 +30,7 @@ pub fn scene_to_toml(scene: &Scene) -> String {
         None => t.line("floor", false),
     }
     if let Some(strength) = scene.mortar {
-        t.noted("mortar", number(strength), "Pa, bonds bodies that touch");
+        t.noted("mortar", number(strength), "Pa, between bodies that touch");
     }
     if let Some(Adhesive { strength, patch }) = scene.adhesive {
         let layer = format!(
@@ -38,7 +38,7 @@ pub fn scene_to_toml(scene: &Scene) -> String {
             number(strength),
             number(patch)
         );
-        t.noted("adhesive", layer, "Pa and m, bonds faces patch by patch");
+        t.noted("adhesive", layer, "Pa and m, bonds faces in patches");
     }
     t.noted(
         "look_from",
@@ -151,7 +151,7 @@ fn write_body(t: &mut Text, body: &BodySpec) {
             t.noted(
                 "followed",
                 followed,
-                "of them through time, the rest at once",
+                "integrated through time, the rest static",
             );
         }
     }
@@ -220,10 +220,10 @@ fn write_projectile(t: &mut Text, projectile: &Projectile, bodies: &[BodySpec]) 
     t.noted("at", vector(projectile.at), "m from the centre of mass");
     t.line("toward", vector(projectile.toward));
     if projectile.delay > 0.0 {
-        t.noted("delay", number(projectile.delay), "s until it sets out");
+        t.noted("delay", number(projectile.delay), "s before it starts");
     }
     if let Some(stays) = projectile.stays {
-        t.noted("stays", number(stays), "s until it is taken away");
+        t.noted("stays", number(stays), "s before it is removed");
     }
 }
 

@@ -165,7 +165,7 @@ fn what_makes_no_strength_is_named() {
         ),
         (
             "fatigue = { exponent = 16, rate = 2e6 }",
-            "there must be a key `increase`",
+            "missing key `increase`",
         ),
         (
             "material = { preset = \"glass\", fracture_energy = 0 }",

@@ -97,12 +97,12 @@ fn wrong_types_and_unusable_values_are_told_with_their_line() {
         (body("position = [1e30, 0]"), 4, "at most 1000"),
         (body("modes = 0"), 4, "the number of modes"),
         (body("modes = -3"), 4, "whole number"),
-        (body("size = 0.1"), 4, "is for a `mesh`"),
-        (body("rotation = { degrees = 3 }"), 4, "a rotation is"),
+        (body("size = 0.1"), 4, "applies only to a `mesh`"),
+        (body("rotation = { degrees = 3 }"), 4, "a rotation must be"),
         (
             body("rotation = { axis = \"w\", degrees = 3 }"),
             4,
-            "`w` is no axis",
+            "`w` is not an axis",
         ),
         (
             body("rotation = { quaternion = [1, 1, 1, 1] }"),
@@ -148,7 +148,7 @@ fn wrong_types_and_unusable_values_are_told_with_their_line() {
         (
             "[[body]]\nmesh = \"a.obj\"\nup = \"q\"".into(),
             3,
-            "`q` is no axis",
+            "`q` is not an axis",
         ),
         (
             "[[body]]\nasset = \"a.frangible\"\nsize = -3".into(),
@@ -200,8 +200,8 @@ fn wrong_types_and_unusable_values_are_told_with_their_line() {
             6,
             "two bodies `scene 1`",
         ),
-        (body("this is no TOML"), 4, ""),
-        (body("modes = 3\nmodes = 4"), 5, "already there"),
+        (body("this is not TOML"), 4, ""),
+        (body("modes = 3\nmodes = 4"), 5, "occurs twice"),
     ] {
         let message = refused(&text);
         assert!(
@@ -300,8 +300,8 @@ fn supports_that_cannot_be_meant_are_refused() {
     for (support, words) in [
         ("{ }", "one of `below`"),
         ("{ below = 0, above = 1 }", "one of `below`"),
-        ("{ side = \"-x\" }", "go together"),
-        ("{ side = \"w\", at = 0 }", "`side` is one of"),
+        ("{ side = \"-x\" }", "given together"),
+        ("{ side = \"w\", at = 0 }", "`side` must be one of"),
         ("{ below = 0, axes = \"xx\" }", "letters x, y and z"),
         ("{ below = 0, axes = \"\" }", "letters x, y and z"),
         ("{ below = nan }", "not finite"),
