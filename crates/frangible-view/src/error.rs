@@ -1,4 +1,4 @@
-//! Errors of the viewer; each message says how to mend it.
+//! Errors of the viewer. Each message says how to fix the problem.
 
 use std::path::PathBuf;
 
@@ -24,7 +24,7 @@ pub(crate) fn within(
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ViewError {
-    /// A line that is no command.
+    /// A line that is not a command.
     #[error("`{line}`: {problem}")]
     Command {
         /// The line.
@@ -42,28 +42,28 @@ pub enum ViewError {
         /// The error in it, and the correct form.
         problem: String,
     },
-    /// A command that makes no sense now.
+    /// A command that is not possible in the current state.
     #[error("{0}")]
     NotNow(String),
-    /// An error of the scene, or of a thrown thing.
+    /// An error of the scene or of a projectile.
     #[error(transparent)]
     Scene(#[from] frangible_scenes::SceneError),
-    /// The fracture model.
+    /// The fracture model rejected its input.
     #[error(transparent)]
     Fracture(#[from] frangible::InputError),
-    /// The methods that were to be compared.
+    /// The fracture methods cannot be compared.
     #[error(transparent)]
     Compare(#[from] frangible_compare::CompareError),
-    /// No such material.
+    /// The material is unknown.
     #[error(transparent)]
     Material(#[from] frangible::internals::UnknownMaterial),
-    /// A body that cannot be of the material asked for.
+    /// The body cannot be changed to the requested material.
     #[error(transparent)]
     Rescale(#[from] frangible_bake::RescaleError),
     /// The sound cannot be computed.
-    #[error("there is no more sound: {0}")]
+    #[error("the sound stopped: {0}")]
     Sound(#[from] frangible_sound::SoundError),
-    /// A recording that no file can be made of.
+    /// The recording cannot be exported.
     #[error(transparent)]
     Export(#[from] frangible_export::ExportError),
     /// A file that cannot be written.
@@ -74,7 +74,7 @@ pub enum ViewError {
     File {
         /// The file.
         path: PathBuf,
-        /// Read, written.
+        /// The attempted operation: “read” or “written”.
         doing: &'static str,
         /// Error of the system.
         source: std::io::Error,
@@ -92,13 +92,13 @@ pub enum ViewError {
     #[cfg(feature = "window")]
     #[error(transparent)]
     Photo(#[from] frangible_photo::PhotoError),
-    /// The window system refused.
+    /// The window could not be opened.
     #[error(
-        "the window could not be opened: {0}. Is the display right (DISPLAY), and are the X11 or Wayland libraries there? On Debian: apt-get install libxkbcommon-x11-0 libxcursor1 libxi6 libxrandr2"
+        "the window could not be opened: {0}. Check that DISPLAY is correct and the X11 or Wayland libraries are installed; on Debian: apt-get install libxkbcommon-x11-0 libxcursor1 libxi6 libxrandr2"
     )]
     Window(String),
-    /// The thread of the session died.
-    #[error("the simulation's thread ended without a word; its message is on the error output")]
+    /// The simulation thread panicked.
+    #[error("the simulation thread panicked; see its message on the error output")]
     Worker,
 }
 

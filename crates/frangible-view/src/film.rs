@@ -41,13 +41,13 @@ impl Session {
     ) -> Result<(), ViewError> {
         if self.film_job.is_some() {
             return Err(ViewError::NotNow(
-                "another film is being made; wait for it, or give it up with `cancel-save`".into(),
+                "another film is being made; wait for it, or cancel it with `cancel-save`".into(),
             ));
         }
         options.check()?;
         let view = self.film_view();
         let live = self.live().ok_or_else(|| {
-            ViewError::NotNow("there is no scene to film; load one, and wait for its bake".into())
+            ViewError::NotNow("no scene is loaded; load one and wait until it is baked".into())
         })?;
         let recording = match kind {
             FilmKind::Still => live.recording(view),
@@ -68,7 +68,7 @@ impl Session {
             return false;
         };
         match result {
-            Err(_) if given_up => self.say("the film was given up".into()),
+            Err(_) if given_up => self.say("the film was cancelled".into()),
             Ok(path) => self.say(format!("wrote {}", path.display())),
             Err(error) => self.complain(&error),
         }

@@ -38,7 +38,7 @@ impl Session {
             }
             Target::Script => {
                 let lines: Vec<String> = self.log().iter().map(ToString::to_string).collect();
-                let head = "# Does again what was done: frangible view --script FILE\n";
+                let head = "# Replays this session: frangible view --script FILE\n";
                 format!("{head}{}\n", lines.join("\n")).into_bytes()
             }
             Target::Times => {
@@ -47,7 +47,7 @@ impl Session {
             }
             Target::Report => {
                 let blow = self.blow().ok_or_else(|| {
-                    ViewError::NotNow("nothing was hit yet, so there is nothing to report".into())
+                    ViewError::NotNow("there has been no contact yet, so there is nothing to report".into())
                 })?;
                 let mut report = Report::of(blow);
                 if let Some(methods) = &self.methods().filter(|m| Arc::ptr_eq(&m.blow, blow)) {
@@ -64,7 +64,7 @@ impl Session {
 }
 
 fn no_scene() -> ViewError {
-    ViewError::NotNow("there is no scene to save; load one, and wait for its bake".into())
+    ViewError::NotNow("no scene is loaded; load one and wait until it is baked".into())
 }
 
 /// Numbers as JSON.

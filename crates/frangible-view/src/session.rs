@@ -173,14 +173,14 @@ impl Session {
     /// The scene that runs.
     fn running(&mut self) -> Result<&mut LiveScene, ViewError> {
         self.live.as_mut().ok_or_else(|| {
-            ViewError::NotNow("there is no scene yet; load one, and wait for its bake".into())
+            ViewError::NotNow("no scene is loaded; load one and wait until it is baked".into())
         })
     }
 
     /// The last contact that mattered.
     fn last_blow(&self) -> Result<&Arc<Blow>, ViewError> {
         self.blow.as_ref().ok_or_else(|| {
-            ViewError::NotNow("nothing was hit yet; throw something, or let something fall".into())
+            ViewError::NotNow("there has been no contact yet; throw or drop something first".into())
         })
     }
 

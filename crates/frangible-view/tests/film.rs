@@ -118,14 +118,14 @@ fn films_that_cannot_be_made_say_why() {
         let error = session.apply(Command::parse(line).unwrap()).unwrap_err();
         assert!(error.to_string().contains(hint), "{line}: {error}");
     };
-    refused(&mut session, "save gif x.gif", "no scene to film");
+    refused(&mut session, "save gif x.gif", "no scene is loaded");
     let mut session = pane("no-film");
     refused(&mut session, "save gif x.gif 60s", "must be 0.01 to 20 s");
     refused(&mut session, "save gif x.gif 500fps", "must be 1 to 60 1/s");
     refused(
         &mut session,
         "look-from 0,0,0 0,0,0",
-        "must stand elsewhere",
+        "position and target must differ",
     );
     if !has_adapter() {
         return;

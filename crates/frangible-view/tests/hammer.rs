@@ -99,7 +99,7 @@ fn hammers_that_cannot_be_say_why() {
         ("hammer 0 5 steel", "hammer's mass is 0 kg"),
         ("hammer 1 500 steel", "must be 0.1 to 50 m/s"),
         ("hammer 1 5 cheese", "cheese"),
-        ("swing 0,1,1 0,2,1", "nothing for the hammer to strike"),
+        ("swing 0,1,1 0,2,1", "the hammer has no target"),
     ] {
         let error = session.apply(Command::parse(line).unwrap()).unwrap_err();
         assert!(error.to_string().contains(hint), "{line}: {error}");

@@ -306,17 +306,17 @@ fn commands_that_make_no_sense_say_what_would() {
     for (line, hint) in [
         ("step 3", "load one"),
         ("reset", "choose one"),
-        ("look stress", "nothing was hit yet"),
+        ("look stress", "there has been no contact yet"),
         ("undo", "nothing has broken yet"),
         ("scene glas", "did you mean `glass`?"),
         ("open nowhere.toml", "there is no such file"),
-        ("hit-again", "nothing was hit yet"),
-        ("knob strength 3", "before a scene is loaded"),
+        ("hit-again", "there has been no contact yet"),
+        ("knob strength 3", "no scene is loaded"),
         ("knob strenth 3", "did you mean `strength`?"),
         ("ball 1 1 1 cheese", "cheese"),
         ("ball 0 0.1 3 steel", "mass"),
-        ("screenshot x.png", "there is none"),
-        ("save glb x.glb", "no scene to save"),
+        ("screenshot x.png", "this session has none"),
+        ("save glb x.glb", "no scene is loaded"),
     ] {
         let error = session.apply(Command::parse(line).unwrap()).unwrap_err();
         assert!(error.to_string().contains(hint), "{line}: {error}");

@@ -65,7 +65,7 @@ pub static KNOBS: [Knob; 22] = [
         Kind::Factor,
         fracture_energy,
         false,
-        "what crack area costs: E = A G_c [Eq. 11]; a crack runs while the strain energy pays"
+        "energy needed per crack area: E = A G_c [Eq. 11]; a crack runs while the strain energy suffices"
     ),
     of_material!(
         "gamma",
@@ -120,7 +120,7 @@ pub static KNOBS: [Knob; 22] = [
         Kind::Factor,
         youngs_modulus,
         false,
-        "K ~ E: every frequency goes with √(E/ρ), stress at the same strain with E; the modes are rescaled, not baked again"
+        "K ~ E: every frequency scales with √(E/ρ), the stress at a given strain with E; the modes are rescaled without a new bake"
     ),
     of_material!(
         "density",
@@ -131,7 +131,7 @@ pub static KNOBS: [Knob; 22] = [
         Kind::Factor,
         density,
         false,
-        "M ~ ρ: every frequency goes with √(E/ρ), the mass with ρ; the modes are rescaled, not baked again"
+        "M ~ ρ: every frequency scales with √(E/ρ), the mass with ρ; the modes are rescaled without a new bake"
     ),
     of_material!(
         "poisson",
@@ -142,7 +142,7 @@ pub static KNOBS: [Knob; 22] = [
         Kind::Even,
         poisson_ratio,
         true,
-        "λ = E ν / ((1 + ν)(1 − 2ν)); other modes, so the body is baked again in the background"
+        "λ = E ν / ((1 + ν)(1 − 2ν)); changes the modes, so the body is baked again in the background"
     ),
     of_material!(
         "alpha",
@@ -153,7 +153,7 @@ pub static KNOBS: [Knob; 22] = [
         Kind::Even,
         stiffness_damping,
         false,
-        "D = α K + β M: d_i = α λ_i + β, kills high frequencies [Table 1]"
+        "D = α K + β M: d_i = α λ_i + β, damps high frequencies most [Table 1]"
     ),
     of_material!(
         "beta",
@@ -174,7 +174,7 @@ pub static KNOBS: [Knob; 22] = [
         range: [1.0, 400.0],
         kind: Kind::Whole,
         rebakes: true,
-        help: "u = Φ q with so many columns of Φ, the lowest frequencies; baked again in the background",
+        help: "number of columns of Φ in u = Φ q, lowest frequencies first; the body is baked again in the background",
         get: |s| s.modes as f64,
         set: |s, x| s.modes = x as usize,
     },
@@ -186,7 +186,7 @@ pub static KNOBS: [Knob; 22] = [
         range: [0.0, 3.0],
         kind: Kind::Choice(&DURATIONS),
         rebakes: false,
-        help: "integrated: an outcome of striker, spring and vibration; else t_d = 2.868 (m² / (E² R v))^⅕ of the two bodies [Eq. 1]; modal: of the most excited mode; or Eq. 2 as printed",
+        help: "integrated: computed from striker, contact spring and vibration; Hertz: t_d = 2.868 (m² / (E² R v))^⅕ for the two bodies [Eq. 1]; modal Hertz: for the most excited mode; as printed: Eq. 2",
         get: |s| match s.fracture.duration {
             DurationModel::Integrated => 0.0,
             DurationModel::Hertz => 1.0,
@@ -212,7 +212,7 @@ pub static KNOBS: [Knob; 22] = [
         range: [1e-6, 10.0],
         kind: Kind::Factor,
         rebakes: false,
-        help: "c of Eq. 2 as printed; the other models have none",
+        help: "c of Eq. 2, used only by the model “as printed”",
         get: |s| s.printed_coefficient,
         set: |s, x| {
             s.printed_coefficient = x;
@@ -225,7 +225,7 @@ pub static KNOBS: [Knob; 22] = [
         "admissible",
         "admissible duration",
         admissible_duration,
-        "t_d grows until the modes hold no more than the energy of approach: Σ ½(q̇² + λ q²) ≤ ½ m v²"
+        "t_d is increased until the energy of the modes does not exceed the approach energy: Σ ½(q̇² + λ q²) ≤ ½ m v²"
     ),
     Knob {
         name: "samples",
@@ -235,7 +235,7 @@ pub static KNOBS: [Knob; 22] = [
         range: [2.0, 128.0],
         kind: Kind::Even,
         rebakes: false,
-        help: "Δt = 2π / (ω_high samples), ω_high the highest mode that matters [Eq. 3]",
+        help: "Δt = 2π / (ω_high samples), ω_high of the highest relevant mode [Eq. 3]",
         get: |s| s.fracture.samples_per_period,
         set: |s, x| s.fracture.samples_per_period = x,
     },
@@ -243,13 +243,13 @@ pub static KNOBS: [Knob; 22] = [
         "culling",
         "culling",
         culling,
-        "bounds σ₁ ≤ Σ |q_i| max|σ_i| refuse what cannot break; the same pieces without, only later"
+        "reject blows that cannot break the body by the bound σ₁ ≤ Σ |q_i| max|σ_i|; affects speed, not the result"
     ),
     switch!(
         "ledger",
         "energy ledger",
         energy_ledger,
-        "all cracks together spend no more than the peak strain energy: Σ A G_c ≤ max ½ Σ λ q²"
+        "limit the energy of all cracks to the peak strain energy: Σ A G_c ≤ max ½ Σ λ q²"
     ),
     switch!(
         "green-lagrange",
@@ -259,19 +259,19 @@ pub static KNOBS: [Knob; 22] = [
     ),
     switch!(
         "sized-flaws",
-        "flaws with a size",
+        "flaw size",
         sized_flaws,
-        "a weak point feels the mean stress over a flaw of depth a = (K_Ic / 1.12 R)² / π, instead of that at a point"
+        "test a weak point with the mean stress over a flaw of depth a = (K_Ic / 1.12 R)² / π, not the stress at a point"
     ),
     Knob {
         name: "load-duration",
-        label: "loads rest for",
+        label: "load duration",
         unit: "s",
         factor: 1.0,
         range: [1e-3, 1e10],
         kind: Kind::Factor,
         rebakes: false,
-        help: "σⁿ t / B = R^(n−2) − S^(n−2): what static fatigue leaves of the strength of glass under a load that rests; blows do not mind it",
+        help: "σⁿ t / B = R^(n−2) − S^(n−2): strength of glass after static fatigue under a sustained load; no effect on blows",
         get: |s| s.fracture.load_duration,
         set: |s, x| s.fracture.load_duration = x,
     },
@@ -283,7 +283,7 @@ pub static KNOBS: [Knob; 22] = [
         range: [0.0, 1e6],
         kind: Kind::Whole,
         rebakes: false,
-        help: "another seed, other weak points and other noise; everything else is the same",
+        help: "selects the random weak points and crack roughness; everything else stays the same",
         get: |s| s.seed as f64,
         set: |s, x| s.seed = x as u64,
     },

@@ -22,7 +22,7 @@ pub(super) fn film(kind: &str, tail: &str) -> Result<Command, String> {
     }
     if rest.is_empty() || option(&rest, &mut options.clone()) {
         return Err(format!(
-            "write it as `save {kind} FILE`, and behind that what you like of 3s 20fps 640x400 64spp"
+            "write it as `save {kind} FILE`, followed by any of 3s 20fps 640x400 64spp"
         ));
     }
     // A word that is none would hide the options before it in the name of the file.
@@ -30,7 +30,7 @@ pub(super) fn film(kind: &str, tail: &str) -> Result<Command, String> {
     let hidden = words.any(|word| option(word, &mut options.clone()));
     if let (true, Some(last)) = (hidden, rest.split_whitespace().next_back()) {
         return Err(format!(
-            "`{last}` behind the file is none of 3s 20fps 640x400 64spp"
+            "`{last}` after the file is none of 3s 20fps 640x400 64spp"
         ));
     }
     Ok(Command::Film(one_of(kind, &FILMS)?, rest.into(), options))

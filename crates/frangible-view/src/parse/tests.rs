@@ -46,11 +46,11 @@ fn a_film_has_its_options_behind_its_file() {
 fn mistakes_say_what_would_do() {
     for (line, hint) in [
         ("scen glass", "did you mean `scene`?"),
-        ("step many", "`many` is no whole number"),
+        ("step many", "`many` is not a whole number"),
         ("throw 0,0 1,2,3", "write x,y,z"),
         ("look inside", "world, stress, cracks"),
         ("ball 1 2", "write it as `ball KG"),
-        ("slow-motion NaN", "is no number"),
+        ("slow-motion NaN", "is not a number"),
         ("reset now", "write it as `reset "),
         ("", "there is no command"),
     ] {

@@ -51,19 +51,19 @@ pub(super) fn one_of<T: Copy>(word: &str, known: &[(&str, T)]) -> Result<T, Stri
 
 pub(super) fn number(word: &str) -> Result<f64, String> {
     let read = f64::from_str(word).ok().filter(|x| x.is_finite());
-    read.ok_or_else(|| format!("`{word}` is no number"))
+    read.ok_or_else(|| format!("`{word}` is not a number"))
 }
 
 pub(super) fn whole(word: &str) -> Result<u32, String> {
     word.parse()
-        .map_err(|_| format!("`{word}` is no whole number"))
+        .map_err(|_| format!("`{word}` is not a whole number"))
 }
 
 pub(super) fn vector(word: &str) -> Result<Vec3, String> {
     let numbers: Result<Vec<f64>, String> = word.split(',').map(number).collect();
     match numbers?[..] {
         [x, y, z] => Ok(Vec3::new(x as f32, y as f32, z as f32)),
-        _ => Err(format!("`{word}` is no point; write x,y,z in metres")),
+        _ => Err(format!("`{word}` is not a point; write x,y,z in metres")),
     }
 }
 

@@ -103,7 +103,7 @@ impl Session {
     fn ears(&mut self) -> Result<&mut Heard, ViewError> {
         self.heard
             .as_mut()
-            .ok_or_else(|| ViewError::NotNow("nobody listens: there is no sound here".into()))
+            .ok_or_else(|| ViewError::NotNow("sound is not available in this session".into()))
     }
 
     /// Volume, and true if it is muted; none if nobody listens.

@@ -26,12 +26,12 @@ impl Session {
             Subject::World => {}
             Subject::Compare if self.compared.is_none() => {
                 return Err(ViewError::NotNow(
-                    "there is nothing to compare yet; take the last impact again first (H)".into(),
+                    "there is nothing to compare yet; repeat the last impact first (H)".into(),
                 ));
             }
             Subject::Methods if self.methods.is_none() => {
                 return Err(ViewError::NotNow(
-                    "no methods were compared yet; have the last impact broken by them first (M)"
+                    "no methods have been compared yet; apply them to the last impact first (M)"
                         .into(),
                 ));
             }

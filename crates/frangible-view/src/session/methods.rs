@@ -27,7 +27,7 @@ impl Session {
         let blow = Arc::clone(self.last_blow()?);
         if !blow.is_repeatable() || blow.number.is_none() {
             return Err(ViewError::NotNow(format!(
-                "`{}` was not hit as a whole body, which is what methods are compared on",
+                "`{}` was already broken when it was hit; methods are compared on whole bodies only",
                 blow.name
             )));
         }
@@ -39,7 +39,7 @@ impl Session {
         }
         if chosen.len() > PANES {
             return Err(ViewError::NotNow(format!(
-                "{} methods are too many to be seen at once; choose up to {PANES}",
+                "{} methods do not fit on the screen; choose up to {PANES}",
                 chosen.len()
             )));
         }
@@ -137,7 +137,7 @@ fn by_methods(
     let mut done = 0;
     compare(hit, methods, &options, &mut |method| {
         let share = f64::from(done) / methods.len() as f64;
-        teller.tell(format!("breaking it by {}", method.title()), share);
+        teller.tell(format!("computing {}", method.title()), share);
         done += 1;
     })
 }

@@ -48,7 +48,7 @@ impl Session {
             Command::Volume(number) | Command::SlowMotion(number) if number.is_nan() => {
                 return Err(ViewError::Command {
                     line: command.to_string(),
-                    problem: "NaN is no number".into(),
+                    problem: "NaN is not allowed; give a number".into(),
                 });
             }
             Command::Scene(name) => {
@@ -118,7 +118,7 @@ impl Session {
                 let way = target - eye;
                 if !way.is_finite() || way.length() < 1e-4 {
                     return Err(ViewError::NotNow(
-                        "the camera must stand elsewhere than where it looks".into(),
+                        "the camera's position and target must differ".into(),
                     ));
                 }
                 self.look_from = Some(View {
@@ -140,7 +140,7 @@ impl Session {
             }
             other => {
                 return Err(ViewError::NotNow(format!(
-                    "`{other}` is for a window, and there is none"
+                    "`{other}` requires a window, and this session has none"
                 )));
             }
         }

@@ -168,7 +168,7 @@ impl Session {
         self.methods_job = None;
         self.set_subject(Subject::World);
         self.paused = true;
-        self.say("back to just before the break; the clock stands".into());
+        self.say("back to just before the break; the simulation is paused".into());
         Ok(())
     }
 }

@@ -132,7 +132,7 @@ impl Session {
     pub(super) fn reset(&mut self) -> Result<(), ViewError> {
         if self.scene.is_none() {
             return Err(ViewError::NotNow(
-                "there is no scene to begin again; choose one".into(),
+                "no scene is loaded; choose one to restart".into(),
             ));
         }
         self.prepare();
@@ -141,7 +141,7 @@ impl Session {
 
     pub(super) fn drop_from(&mut self, height: f64) -> Result<(), ViewError> {
         let scene = self.scene.as_mut().ok_or_else(|| {
-            ViewError::NotNow("there is no scene to drop anything in; choose one".into())
+            ViewError::NotNow("no scene is loaded; choose one before dropping bodies".into())
         })?;
         let mut dropped = scene.clone();
         dropped.drop_all(height);
@@ -156,7 +156,7 @@ impl Session {
             self.hits_again = false;
             self.say("the bake was cancelled".into());
         } else if self.methods_job.take().is_some() {
-            self.say("the comparison was given up".into());
+            self.say("the comparison was cancelled".into());
         }
     }
 }

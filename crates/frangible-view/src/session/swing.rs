@@ -30,7 +30,7 @@ impl Session {
             direction,
         };
         let met = pick(live, explode, ray).ok_or_else(|| {
-            ViewError::NotNow("there is nothing for the hammer to strike; aim at a thing".into())
+            ViewError::NotNow("the hammer has no target; aim at an object".into())
         })?;
         live.swing(&Swing {
             mass: hammer.mass,

@@ -26,7 +26,7 @@ impl Session {
     fn settings_mut(&mut self) -> Result<&mut [Settings; 2], ViewError> {
         self.settings
             .as_mut()
-            .ok_or_else(|| ViewError::NotNow("there are no knobs before a scene is loaded".into()))
+            .ok_or_else(|| ViewError::NotNow("no scene is loaded; load one before setting knobs".into()))
     }
 
     pub(super) fn turn(&mut self, name: &str, value: f64) -> Result<(), ViewError> {
@@ -85,7 +85,7 @@ impl Session {
         if untouched {
             self.prepare();
         } else {
-            self.say("H: the last impact with the new knobs; R: the scene with them".into());
+            self.say("H repeats the last impact with the new knobs, R restarts the scene with them".into());
         }
     }
 
@@ -93,7 +93,7 @@ impl Session {
         let blow = Arc::clone(self.last_blow()?);
         let (true, Some(number)) = (blow.is_repeatable(), blow.number) else {
             return Err(ViewError::NotNow(format!(
-                "`{}` was not broken by an impact on a whole body, which is what can be taken again",
+                "`{}` was already broken when it was hit; only impacts on whole bodies can be repeated",
                 blow.name
             )));
         };

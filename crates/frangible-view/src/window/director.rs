@@ -96,7 +96,7 @@ impl Director {
     pub(super) fn closed_early(&self) -> Result<(), ViewError> {
         match &self.script {
             Some(script) if !script.is_over() => Err(ViewError::NotNow(
-                "the window was closed before the script's end".into(),
+                "the window was closed before the end of the script".into(),
             )),
             _ => Ok(()),
         }

@@ -76,8 +76,8 @@ impl Viewer {
 /// Reason that a page cannot carry out a command.
 pub(super) fn not_here(command: &Command) -> String {
     match command {
-        Command::Film(..) => "a page makes no films or stills: `frangible view` does".into(),
-        Command::Screenshot(_) => "take the picture with the browser".into(),
-        _ => format!("`{command}` is nothing for a page"),
+        Command::Film(..) => "the web page cannot make films or stills; use `frangible view`".into(),
+        Command::Screenshot(_) => "use the browser to take a screenshot".into(),
+        _ => format!("`{command}` is not available on the web page"),
     }
 }

@@ -78,7 +78,7 @@ impl Panels {
             folder,
             saved: 0,
             // A first-time user must know how to begin.
-            note: (!script).then(|| "click to throw the ball; ? lists keys and mouse".into()),
+            note: (!script).then(|| "click to throw the ball; press ? for keys and mouse".into()),
             drop_height: 1.2,
             times: FrameTimes::default(),
             styled: None,

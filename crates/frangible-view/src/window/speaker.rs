@@ -29,7 +29,7 @@ pub(super) fn open() -> Result<(Speaker, Outlet), String> {
     const HELD: f64 = 0.08;
 
     let told = |error: pulseaudio::ClientError| {
-        format!("neither PulseAudio nor PipeWire answers ({error})")
+        format!("neither PulseAudio nor PipeWire is available ({error})")
     };
     let outlet = Outlet::new(f64::from(RATE));
     let source = outlet.clone();
@@ -79,8 +79,8 @@ pub(super) fn open() -> Result<(Speaker, Outlet), String> {
     use cpal::traits::{DeviceTrait, HostTrait, StreamTrait};
 
     let device = cpal::default_host().default_output_device();
-    let device = device.ok_or("there is no sound device")?;
-    let told = |error: cpal::Error| format!("the sound device does not play ({error})");
+    let device = device.ok_or("no sound device was found")?;
+    let told = |error: cpal::Error| format!("the sound device cannot play ({error})");
     let mut config = device.default_output_config().map_err(told)?.config();
     config.channels = 2;
     let outlet = Outlet::new(f64::from(config.sample_rate));
@@ -99,5 +99,5 @@ pub(super) fn open() -> Result<(Speaker, Outlet), String> {
 /// Always.
 #[cfg(not(any(target_os = "linux", target_os = "windows", target_os = "macos")))]
 pub(super) fn open() -> Result<(Speaker, Outlet), String> {
-    Err("the window has no sound on this system yet".into())
+    Err("sound is not yet supported on this system".into())
 }

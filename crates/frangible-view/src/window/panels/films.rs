@@ -10,7 +10,7 @@ impl Panels {
     pub(super) fn films(&mut self, ui: &mut Ui, shown: &Shown, commands: &mut Vec<Command>) {
         if let Some(film) = &shown.filming {
             ui.add(egui::ProgressBar::new(film.share as f32).text(film.what.clone()));
-            if ui.button("Give it up").clicked() {
+            if ui.button("Cancel").clicked() {
                 commands.push(Command::CancelSave);
             }
             return;
@@ -22,25 +22,25 @@ impl Panels {
                 .speed(0.1)
                 .max_decimals(1);
             ui.add(seconds.suffix(" s"))
-                .on_hover_text(format!("of film; {:.1} s are kept", shown.reel));
+                .on_hover_text(format!("length of the film; the last {:.1} s are available", shown.reel));
             for (label, kind, ending, hint) in [
                 (
                     "GIF",
                     FilmKind::Gif,
                     "gif",
-                    "the last seconds as they were seen",
+                    "the last seconds as shown in the window",
                 ),
                 (
                     "MP4",
                     FilmKind::Mp4,
                     "mp4",
-                    "the same; takes the program ffmpeg",
+                    "as shown in the window; requires the program ffmpeg",
                 ),
                 (
                     "frames",
                     FilmKind::Frames,
                     "frames",
-                    "the same as a folder of PNG",
+                    "as shown in the window, as a folder of PNG files",
                 ),
             ] {
                 if ui.small_button(label).on_hover_text(hint).clicked() {
@@ -49,13 +49,13 @@ impl Panels {
             }
         });
         ui.horizontal_wrapped(|ui| {
-            let hint = "path-traced: light goes through glass and around corners; seconds to minutes on the processor";
+            let hint = "path-traced still, with refraction and indirect light; takes seconds to minutes on the CPU";
             if ui.small_button("still").on_hover_text(hint).clicked() {
                 commands.push(self.film(shown, FilmKind::Still, "png"));
             }
             let samples = DragValue::new(&mut self.film.samples).range(1..=65_536);
             ui.add(samples.suffix(" samples"))
-                .on_hover_text("per pixel of a still; noise falls with the square root");
+                .on_hover_text("samples per pixel of a still; noise falls with the square root of the number");
         });
         ui.horizontal(|ui| {
             ui.label("size");

@@ -25,13 +25,13 @@ pub(super) fn show(ctx: &egui::Context, open: &mut bool) {
                         .striped(true)
                         .show(ui, |ui| {
                             for (hand, does) in [
-                                ("click", "throw the ball there, or swing the hammer"),
-                                ("shift + click", "select a piece: mass, volume, size, speed"),
-                                ("ctrl + drag", "take hold of a thing, and fling it"),
-                                ("drag", "turn the camera"),
-                                ("shift + drag", "move it (or drag with the wheel pressed)"),
-                                ("wheel", "nearer or farther"),
-                                ("drop a file", "a mesh, a baked body, a scene"),
+                                ("click", "throw the ball at this point, or swing the hammer"),
+                                ("shift + click", "select a piece to show its mass, volume, size and speed"),
+                                ("ctrl + drag", "grab an object and fling it"),
+                                ("drag", "orbit the camera"),
+                                ("shift + drag", "pan the camera (or drag with the middle button)"),
+                                ("wheel", "zoom"),
+                                ("drop a file", "load a mesh, a baked body or a scene"),
                             ] {
                                 ui.strong(hand);
                                 ui.label(does);

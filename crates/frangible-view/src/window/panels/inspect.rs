@@ -40,7 +40,7 @@ pub(super) fn panel(
     }
     let Some(blow) = &shown.blow else {
         ui.label(
-            "Nothing was hit yet: click into the scene to throw a ball, or let the body fall.",
+            "No contact yet: click into the scene to throw a ball, or drop the body.",
         );
         return;
     };
@@ -49,7 +49,7 @@ pub(super) fn panel(
         if shown.analysing {
             ui.spinner();
         } else {
-            ui.small("look at stress, cracks or modes for its course over time");
+            ui.small("choose stress, cracks or modes to see the contact over time");
         }
         return;
     };
@@ -74,23 +74,23 @@ fn subjects(ui: &mut Ui, shown: &Shown, commands: &mut Vec<Command>) {
             (
                 Subject::Stress,
                 "stress",
-                "2: the body during the contact, coloured by its largest tension",
+                "2: the body during the contact, coloured by the largest tensile stress",
             ),
             (
                 Subject::Cracks,
                 "cracks",
-                "3: coloured in the order in which they started",
+                "3: the cracks, coloured by the order in which they started",
             ),
-            (Subject::Modes, "modes", "4: one vibration mode at a time"),
+            (Subject::Modes, "modes", "4: the vibration modes, one at a time"),
             (
                 Subject::Compare,
                 "compare",
-                "5: the impact that was taken again, beside the old one",
+                "5: the repeated impact beside the original",
             ),
             (
                 Subject::Methods,
                 "methods",
-                "M: the last impact by other methods, side by side",
+                "M: the last impact with several fracture methods, side by side",
             ),
         ] {
             let there = match subject {
@@ -143,12 +143,12 @@ fn contact(ui: &mut Ui, blow: &BlowNumbers) {
     ));
     ui.label(match blow.pieces {
         1 => format!(
-            "held: {:.0} % of its strength of {:.1} MPa at most",
+            "not broken: at most {:.0} % of its strength of {:.1} MPa",
             100.0 * blow.stress_bound / blow.strength,
             1e-6 * blow.strength
         ),
         pieces => format!(
-            "{pieces} pieces by {} cracks, {:.1} cm² of crack; first crack after {:.0} µs",
+            "{pieces} pieces, {} cracks, {:.1} cm² of crack area; first crack after {:.0} µs",
             blow.cracks,
             1e4 * blow.crack_area,
             1e6 * blow.first_crack_time
@@ -261,7 +261,7 @@ fn modes(ui: &mut Ui, shown: &Shown, course: &Course, commands: &mut Vec<Command
     let mut share = shown.scrub;
     let slider = Slider::new(&mut share, 0.0..=1.0)
         .show_value(false)
-        .text("one swing");
+        .text("phase");
     if ui.add(slider).changed() {
         commands.push(Command::Scrub(share));
     }
@@ -288,7 +288,7 @@ fn moment(shown: &Shown, course: &Course) -> VLine {
 }
 
 fn force(ui: &mut Ui, shown: &Shown, course: &Course) {
-    ui.small("force of the contact, N, over µs");
+    ui.small("contact force (N) against time (µs)");
     let moment = moment(shown, course);
     plot("force", 70.0).show(ui, |plot| {
         plot.line(Line::new("force, N", points(&course.force.points, 1.0)).width(2.0));
@@ -297,7 +297,7 @@ fn force(ui: &mut Ui, shown: &Shown, course: &Course) {
 }
 
 fn stresses(ui: &mut Ui, shown: &Shown, course: &Course) {
-    ui.small("largest tension (thick), modes that strain most, strength (red), MPa over µs");
+    ui.small("largest tensile stress (thick), most strained modes, strength (red): MPa against time (µs)");
     let moment = moment(shown, course);
     plot("stress", 130.0).show(ui, |plot| {
         for mode in &course.modes {
@@ -317,10 +317,10 @@ fn energy(ui: &mut Ui, blow: &BlowNumbers) {
         .max(blow.peak_strain_energy)
         .max(f64::MIN_POSITIVE);
     for (label, joules) in [
-        ("of the approach", blow.approach_energy),
-        ("strain, at its peak", blow.peak_strain_energy),
+        ("approach", blow.approach_energy),
+        ("strain, peak", blow.peak_strain_energy),
         ("spent on cracks", blow.fracture_energy),
-        ("taken from the motion", blow.energy_paid),
+        ("taken from the rigid motion", blow.energy_paid),
     ] {
         let share = (joules / whole) as f32;
         let text = format!("{label}: {joules:.4}");
@@ -338,7 +338,7 @@ type Row = (&'static str, fn(&BlowNumbers) -> f64, usize);
 fn compare(ui: &mut Ui, compared: &ComparedNumbers) {
     ui.strong("The same impact");
     if compared.differences.is_empty() {
-        ui.label("with the same knobs");
+        ui.label("with unchanged knobs");
     }
     for (label, [old, new], unit) in &compared.differences {
         ui.label(format!("{label}: {old:.4} → {new:.4} {unit}"));
@@ -352,7 +352,7 @@ fn compare(ui: &mut Ui, compared: &ComparedNumbers) {
         ("peak tension, MPa", |b| 1e-6 * b.peak_stress, 2),
         ("contact, µs", |b| 1e6 * b.contact_duration, 1),
         (
-            "computed in, ms",
+            "computing time, ms",
             |b| 1e3 * b.seconds.iter().sum::<f64>(),
             1,
         ),

@@ -1,4 +1,4 @@
-//! The model's numbers, to be turned.
+//! The panel of the model's parameters.
 
 use egui::{ComboBox, Slider, Ui};
 use frangible::Material;
@@ -17,15 +17,15 @@ pub(super) fn panel(ui: &mut Ui, shown: &Shown, commands: &mut Vec<Command>) {
         let again = ui.add_enabled(shown.blow.is_some(), egui::Button::new("hit again"));
         if again
             .on_hover_text(
-                "H: the last impact on the intact body with these knobs, beside the old one",
+                "H: repeat the last impact on the intact body with these knobs and compare",
             )
             .clicked()
         {
             commands.push(Command::HitAgain);
         }
         if ui
-            .button("begin again")
-            .on_hover_text("R: the scene with these knobs")
+            .button("restart")
+            .on_hover_text("R: restart the scene with these knobs")
             .clicked()
         {
             commands.push(Command::Reset);
@@ -33,7 +33,7 @@ pub(super) fn panel(ui: &mut Ui, shown: &Shown, commands: &mut Vec<Command>) {
         if ui
             .add_enabled(
                 now != own || material != own_material,
-                egui::Button::new("all back"),
+                egui::Button::new("reset all"),
             )
             .clicked()
         {
@@ -62,7 +62,7 @@ fn row(ui: &mut Ui, knob: &Knob, [value, own]: [f64; 2], commands: &mut Vec<Comm
     ui.horizontal(|ui| {
         let back = ui.add_enabled(value != own, egui::Button::new("↺").small());
         if back
-            .on_hover_text(format!("back to {own} {}", knob.unit))
+            .on_hover_text(format!("reset to {own} {}", knob.unit))
             .clicked()
         {
             commands.push(Command::ResetKnob(knob.name.into()));

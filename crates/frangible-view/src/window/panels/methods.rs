@@ -1,4 +1,4 @@
-//! The last impact by several methods: which of them, and their numbers.
+//! Last impact with several methods: which of them, and their numbers.
 
 use egui::{Grid, Ui};
 use frangible_compare::Method;
@@ -49,11 +49,11 @@ pub(super) fn panel(ui: &mut Ui, shown: &Shown, commands: &mut Vec<Command>) {
                 ui.end_row();
             }
         });
-    ui.small("area and energy: of all cracks, one side, and G_c times it, asked for or not");
+    ui.small("area: one side of all cracks; energy: G_c times the area, even for methods that do not use G_c");
 }
 
 fn choice(ui: &mut Ui, shown: &Shown, commands: &mut Vec<Command>) {
-    ui.strong("The last impact by");
+    ui.strong("Last impact with");
     let chosen = shown.chosen.as_deref().unwrap_or(&FIRST);
     for method in Method::ALL {
         let mut on = chosen.contains(&method);
@@ -66,7 +66,7 @@ fn choice(ui: &mut Ui, shown: &Shown, commands: &mut Vec<Command>) {
         let answer = ui.add_enabled(free && shown.blow.is_some(), checkbox);
         let answer = answer.on_hover_text(hint(method));
         if answer
-            .on_disabled_hover_text("up to four at once, one at least")
+            .on_disabled_hover_text("choose one to four methods")
             .changed()
         {
             let now = Method::ALL.into_iter();
@@ -89,18 +89,18 @@ fn short(method: Method) -> &'static str {
 /// Description of a method, in a sentence.
 fn hint(method: Method) -> &'static str {
     match method {
-        Method::Ours => "the vibration starts cracks, which it steers",
+        Method::Ours => "cracks start and run under the stress of the vibration",
         Method::QuasiStatic => {
-            "a steady state in place of the vibration: the impulse as a force over 0.26 ms (Müller et al. 2001)"
+            "static stress instead of vibration: the impulse acts as a constant force over 0.26 ms (Müller et al. 2001)"
         }
         Method::Elements => {
-            "cracks along the faces of the mesh, by the vibration's worst moment (Müller et al. 2001, Smith et al. 2001)"
+            "cracks along mesh faces, at the moment of the largest stress (Müller et al. 2001, Smith et al. 2001)"
         }
         Method::EnergyVoronoi => {
-            "Voronoi cells drawn by strain energy, apart where that pays (Zheng and James 2010)"
+            "Voronoi cells sampled by strain energy, separated where the energy suffices (Zheng and James 2010)"
         }
         Method::Voronoi => {
-            "Voronoi cells around the impact point, as many as ours has pieces: neither stress nor energy is asked for"
+            "Voronoi cells around the impact point, as many as our method has pieces; ignores stress and energy"
         }
     }
 }

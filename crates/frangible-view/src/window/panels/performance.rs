@@ -77,9 +77,9 @@ pub(super) fn panel(ui: &mut Ui, shown: &Shown, times: &FrameTimes) {
     ui.strong("Frames");
     let [wall, processor, own] = [&times.wall, &times.processor, &times.own].map(Laps::spread);
     let two = |spread: Spread| format!("{:.2} ({:.2})", 1e3 * spread.median, 1e3 * spread.p99);
-    ui.label(format!("{:.1} ms a frame", 1e3 * wall.median));
+    ui.label(format!("{:.1} ms per frame", 1e3 * wall.median));
     ui.label(format!(
-        "processor, ms, median (p99): window {}, ours of it {}; session {}",
+        "CPU, ms, median (p99): window {}, of which ours {}; session {}",
         two(processor),
         two(own),
         two(shown.publishing)
@@ -95,7 +95,7 @@ pub(super) fn panel(ui: &mut Ui, shown: &Shown, times: &FrameTimes) {
         .show(ui, |plot| {
             for (laps, name) in [
                 (&times.wall, "frame, ms"),
-                (&times.processor, "processor, ms"),
+                (&times.processor, "CPU, ms"),
             ] {
                 let frames = laps.iter().enumerate();
                 let points: Vec<[f64; 2]> = frames.map(|(i, t)| [i as f64, 1e3 * t]).collect();
@@ -104,7 +104,7 @@ pub(super) fn panel(ui: &mut Ui, shown: &Shown, times: &FrameTimes) {
         });
     let triangles = shown.picture.triangles();
     ui.small(format!(
-        "{} draw calls for {} triangles of the scene",
+        "{} draw calls, {} triangles in the scene",
         times.draw_calls, triangles
     ));
     ui.separator();
@@ -123,7 +123,7 @@ fn contacts(ui: &mut Ui, shown: &Shown) {
     let refused = counts.asked - counts.by_stresses.min(counts.asked) - counts.broke;
     let share = 100.0 * refused as f64 / counts.asked as f64;
     ui.label(format!(
-        "{} asked; {share:.0} % refused by bounds, {} broke",
+        "{} tested; {share:.0} % rejected by bounds, {} broke",
         counts.asked, counts.broke
     ));
     if shown.time > 0.0 {
@@ -171,7 +171,7 @@ fn last_break(ui: &mut Ui, shown: &Shown) {
     ui.small("paper: Table 1, one thread of a 2.3 GHz Core 2");
     let step = &shown.break_step;
     ui.small(format!(
-        "the whole step {:.1} ms: fracture {:.1}, pieces into the world {:.1}, rigid bodies {:.1}",
+        "whole step {:.1} ms: fracture {:.1}, adding pieces {:.1}, rigid bodies {:.1}",
         1e3 * (step.ours() + step.rigid),
         1e3 * step.fracture,
         1e3 * step.fragments,

@@ -54,7 +54,7 @@ impl Panels {
         ui.horizontal(|ui| {
             if ui
                 .button("Drop")
-                .on_hover_text("the bodies from this height")
+                .on_hover_text("drop the bodies from this height")
                 .clicked()
             {
                 commands.push(Command::Drop(self.drop_height));
@@ -87,8 +87,8 @@ impl Panels {
 
     fn files(&mut self, ui: &mut Ui, shown: &Shown, commands: &mut Vec<Command>) {
         ui.label("Save").on_hover_text(match self.in_page {
-            true => "as a download".into(),
-            false => format!("into the folder {}", self.folder.display()),
+            true => "files are downloaded".into(),
+            false => format!("files are saved in the folder {}", self.folder.display()),
         });
         ui.horizontal_wrapped(|ui| {
             for (label, target, ending, hint) in [
@@ -96,19 +96,19 @@ impl Panels {
                     "scene",
                     Target::Scene,
                     "toml",
-                    "the scene with the knobs as they are",
+                    "the scene with the current knobs",
                 ),
                 (
                     "GLB",
                     Target::Glb,
                     "glb",
-                    "what is there now, for Blender and viewers",
+                    "the current state, for Blender and glTF viewers",
                 ),
                 (
                     "script",
                     Target::Script,
                     "txt",
-                    "all that was done, as a script that does it again",
+                    "a script that replays this session",
                 ),
                 (
                     "numbers",
@@ -122,7 +122,7 @@ impl Panels {
                 }
             }
             let picture = (!self.in_page).then(|| ui.small_button("picture"));
-            if picture.is_some_and(|button| button.on_hover_text("of the window").clicked()) {
+            if picture.is_some_and(|button| button.on_hover_text("screenshot of the window").clicked()) {
                 commands.push(Command::Screenshot(self.file(shown, "png")));
             }
         });
@@ -157,15 +157,15 @@ impl Panels {
             ui.small(&shown.summary);
         }
         ui.small(match self.in_page {
-            true => "or drop a file onto the page: a mesh, a baked body, a scene",
-            false => "or drop a file onto the window: a mesh, a baked body, a scene",
+            true => "or drop a mesh, a baked body or a scene file onto the page",
+            false => "or drop a mesh, a baked body or a scene file onto the window",
         });
     }
 }
 
 fn clock(ui: &mut Ui, shown: &Shown, commands: &mut Vec<Command>) {
     ui.horizontal_wrapped(|ui| {
-        let run = if shown.paused { "▶ run" } else { "⏸ stop" };
+        let run = if shown.paused { "▶ run" } else { "⏸ pause" };
         if ui.button(run).on_hover_text("space").clicked() {
             commands.push(if shown.paused {
                 Command::Run
@@ -205,7 +205,7 @@ fn tool(ui: &mut Ui, shown: &Shown, commands: &mut Vec<Command>) {
     ui.horizontal(|ui| {
         for (tool, label, hint) in [
             (Tool::Ball, "Ball", "click into the scene to throw it (B)"),
-            (Tool::Hammer, "Hammer", "click a thing to strike it (B)"),
+            (Tool::Hammer, "Hammer", "click an object to strike it (B)"),
         ] {
             let button = ui.selectable_label(shown.tool == tool, label);
             if button.on_hover_text(hint).clicked() && shown.tool != tool {

@@ -38,7 +38,7 @@ impl Panels {
                     });
                 }
                 if shown.turned {
-                    ui.small("knobs were turned: H hits again with them, R begins again with them");
+                    ui.small("knobs changed: H repeats the impact with them, R restarts the scene");
                 }
             });
     }
@@ -53,7 +53,7 @@ fn summary(shown: &Shown) -> String {
     }
     let mut parts = vec![format!("t = {:.3} s", shown.time)];
     if shown.paused {
-        parts.push("stopped".into());
+        parts.push("paused".into());
     } else if shown.slow_motion < 0.999 {
         parts.push(format!("1/{:.0} of real time", 1.0 / shown.slow_motion));
     }
