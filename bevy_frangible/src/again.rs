@@ -190,7 +190,7 @@ pub(crate) fn join(
             None => continue,
             Some(Ok(body)) => body,
             Some(Err(error)) => {
-                let reason = format!("a piece does not break again: {error}");
+                let reason = format!("a piece cannot break again: {error}");
                 commands.trigger(BreakFailed { entity, reason });
                 continue;
             }

@@ -27,8 +27,7 @@ pub(crate) fn obey(
     }
     let entity = blow.entity;
     let Ok((mut body, transform)) = bodies.get_mut(entity) else {
-        let reason = "the entity is no breakable body, is broken, or its asset is not loaded yet; send the blow once it has \
-                      `BreakableBody`";
+        let reason = "the entity is not a breakable body, is already broken, or its asset is not loaded yet; send the blow once it has `BreakableBody`";
         let reason = reason.into();
         commands.trigger(BreakFailed { entity, reason });
         return;

@@ -12,10 +12,10 @@ use thiserror::Error;
 pub struct FrangibleAsset(pub Kind);
 
 impl FrangibleAsset {
-    /// Makes an asset of a body that a game has baked or loaded itself, with the scatter of strength that its material has.
+    /// Makes an asset from a body that the game has baked or loaded itself, with the scatter of strength of its material.
     ///
     /// # Errors
-    /// An asset that is not sound.
+    /// The asset is invalid.
     pub fn new(baked: Baked) -> Result<Self, InputError> {
         let fields = Fields::of_material(&baked.material);
         Ok(Self(Kind::new(baked)?.with_fields(fields)?))
@@ -26,17 +26,17 @@ impl FrangibleAsset {
 #[derive(Default, TypePath)]
 pub struct FrangibleLoader;
 
-/// Error of a file that is no body.
+/// Error of loading a `.frangible` file.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum LoadError {
     /// The file cannot be read.
     #[error("the file cannot be read: {0}")]
     Io(#[from] std::io::Error),
-    /// The file holds no baked body of this version.
+    /// The file is not a baked body of this version.
     #[error(transparent)]
     File(#[from] AssetFileError),
-    /// The body in it is not sound.
+    /// The body in the file is invalid.
     #[error(transparent)]
     Body(#[from] InputError),
 }

@@ -47,7 +47,7 @@ impl Plugin for FrangibleRapierPlugin {
         match BreakableWorld::new(config) {
             Ok(world) => app.insert_resource(RapierWorld(world)),
             Err(error) => {
-                error!("no world of Rapier: {error}");
+                error!("cannot create the Rapier world: {error}");
                 return;
             }
         };
@@ -138,7 +138,7 @@ fn step(
     let world = &mut world.0;
     world.physics.integration_parameters.dt = time.delta_secs();
     if let Err(error) = world.step() {
-        error!("a body that should have broken is whole: {error}");
+        error!("a break failed and the body stays whole: {error}");
     }
     let entity = |handle: RigidBodyHandle| known.0.get(&handle.into_raw_parts()).copied();
     for event in world.held() {

@@ -22,8 +22,7 @@ fn factor(scale: Vec3) -> Result<f32, String> {
         true if (most - 1.0).abs() <= ROUNDING => Ok(1.0),
         true => Ok(most),
         false => Err(format!(
-            "the entity is scaled by {scale}; only a uniform scale above zero leaves a body's modes what they are: bake it in the shape that \
-             it has"
+            "the entity is scaled by {scale}, but only a uniform scale above zero is supported, because others change the modes; bake the body in its scaled shape"
         )),
     }
 }

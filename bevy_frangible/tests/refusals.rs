@@ -62,7 +62,7 @@ fn a_file_of_a_newer_version_says_so() {
     std::fs::write(folder.join("newer.frangible"), bytes).unwrap();
     let (mut app, log) = app_in(folder.clone());
     body(&mut app, "newer", Transform::default());
-    hear(&mut app, &log, "its format is 9999");
+    hear(&mut app, &log, "its format version is 9999");
     std::fs::remove_dir_all(folder).unwrap();
 }
 
@@ -191,7 +191,7 @@ fn a_body_without_a_collider_or_a_rigid_body_is_told_of() {
     let pane = body(&mut app, "pane", Transform::default());
     ready(&mut app, pane);
     app.world_mut().entity_mut(pane).remove::<Collider>();
-    hear(&mut app, &log, "its collider was removed");
+    hear(&mut app, &log, "the collider of the body was removed");
     app.world_mut().entity_mut(pane).remove::<RigidBody>();
     app.world_mut().trigger(blow(pane, Vec3::Z * 3.0));
     hear(&mut app, &log, "has no rigid body");

@@ -115,7 +115,7 @@ impl WasmBody {
                 margin: 0.0,
                 fracture: *fracture,
             }),
-            _ => Err(JsError::new("an outcome of a kind that is not known here")),
+            _ => Err(JsError::new("unknown kind of outcome; the npm package and the core crate do not match")),
         }
     }
 }

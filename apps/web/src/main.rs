@@ -12,5 +12,5 @@ fn main() {
 
 #[cfg(not(target_arch = "wasm32"))]
 fn main() {
-    println!("this program runs in a page: `cargo xtask web` makes it");
+    println!("this program runs only in a web page; `cargo xtask web` builds the page");
 }

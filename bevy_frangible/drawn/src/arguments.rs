@@ -33,7 +33,7 @@ impl Arguments {
                 "--gizmos" => read.gizmos = true,
                 other => {
                     return Err(format!(
-                        "the argument `{other}` is not known; there are `--picture FILE`, `--steps N` and `--gizmos`"
+                        "unknown argument `{other}`; the arguments are `--picture FILE`, `--steps N` and `--gizmos`"
                     ));
                 }
             }

@@ -95,7 +95,7 @@ fn keep(shot: On<ScreenshotCaptured>, picture: Res<Picture>, mut exit: MessageWr
 /// The file is whole under its name, or not there.
 fn save(image: &Image, file: &Path) -> Result<(), Box<dyn std::error::Error>> {
     let pixels = image.clone().try_into_dynamic()?.to_rgb8();
-    let name = file.file_name().ok_or("it names no file")?;
+    let name = file.file_name().ok_or("it does not name a file")?;
     let part = file.with_file_name(format!("part-{}", name.to_string_lossy()));
     pixels.save(&part)?;
     Ok(std::fs::rename(part, file)?)

@@ -104,7 +104,7 @@ pub(super) fn give_fragments(
     let entity = broke.entity;
     let made = molds.0.remove(&entity);
     let Ok((kind, now, hooks)) = moving.get(entity) else {
-        let reason = "it breaks and has no rigid body, so its pieces have none either: leave it the `RigidBody` that it was given";
+        let reason = "the body breaks but has no rigid body, so its pieces have none either; do not remove its `RigidBody`";
         let reason = reason.into();
         commands.trigger(BreakFailed { entity, reason });
         return;
@@ -160,7 +160,7 @@ pub(super) fn miss_collider(removed: On<Remove, Collider>, mut commands: Command
     commands.queue(move |world: &mut World| {
         let body = world.get_entity(entity);
         if body.is_ok_and(|b| b.contains::<BreakableBody>() && !b.contains::<Collider>()) {
-            let reason = "its collider was removed, so nothing strikes it: give it another one, or send a `Blow`";
+            let reason = "the collider of the body was removed, so nothing can strike it; insert another one, or send a `Blow`";
             let reason = reason.into();
             world.trigger(BreakFailed { entity, reason });
         }
@@ -191,7 +191,7 @@ pub(super) fn push(
         // A piece that was just born is pushed once Avian knows its mass.
         let Pushed { entity, .. } = *pushed;
         if !(pushed.at.is_finite() && pushed.impulse.is_finite()) {
-            let reason = "the blow is not finite; give a point and an impulse".into();
+            let reason = "the blow is not finite; give a finite point and impulse".into();
             commands.trigger(BreakFailed { entity, reason });
         }
         return;

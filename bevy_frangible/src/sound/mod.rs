@@ -132,7 +132,7 @@ impl Plugin for FrangibleSoundPlugin {
         match Heard::new(self) {
             Ok(heard) => app.insert_resource(heard),
             Err(error) => {
-                error!("nothing is heard: {error}");
+                error!("the sound cannot be played: {error}");
                 return;
             }
         };
@@ -202,7 +202,7 @@ fn hear(
         heard.take_in(&places)
     });
     if let Err(error) = heard_now {
-        error!("not all is heard: {error}");
+        error!("part of the sound is missing: {error}");
     }
     heard.blows.clear();
     heard.touches.clear();

@@ -1,11 +1,11 @@
-//! Errors of the run time: each names what is wrong and how to mend it.
+//! Errors of the core crate. Each message says what is wrong and how to fix it.
 
 use frangible_material::OutOfRange;
 use thiserror::Error;
 
 pub use frangible_material::{not_negative, positive};
 
-/// A number or an array given by the caller that cannot be used.
+/// An invalid number or array given by the caller.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum InputError {
@@ -24,24 +24,24 @@ pub enum InputError {
         /// Components.
         z: f32,
     },
-    /// The state of a body that cannot be its own.
+    /// A state that does not belong to the body.
     #[error(
-        "the state of a body cannot be used: {0}; replay its impacts, or begin with an intact one"
+        "the state of a body is invalid: {0}; replay its impacts, or start with an intact body"
     )]
     State(&'static str),
-    /// Bytes of a contact that are too few or too many.
-    #[error("a contact has at least {least} bytes, and more of a striker that vibrates, and these {0} are none; give what Contact::to_bytes wrote", least = crate::Contact::BYTES)]
+    /// A byte string of a contact with a wrong length.
+    #[error("{0} bytes are not a contact, which has at least {least} bytes, and more with a vibrating striker; give the bytes that Contact::to_bytes wrote", least = crate::Contact::BYTES)]
     ContactBytes(usize),
-    /// A striker's receptance that cannot be used.
+    /// A striker's receptance that is invalid.
     #[error(
-        "a striker's receptance cannot be used: {0}; make the striker anew by Striker::flexible"
+        "a striker's receptance is invalid: {0}; make the striker again with Striker::flexible"
     )]
     Receptance(&'static str),
-    /// Fields of strength, toughness or weak points that cannot be used.
-    #[error("fields of a body cannot be used: {0}")]
+    /// Fields of strength, toughness or weak points that are invalid.
+    #[error("the fields of a body are invalid: {0}")]
     Field(String),
-    /// A motion that is not one of the body's modes.
-    #[error("a motion cannot be followed: {0}")]
+    /// A motion that does not match the body's modes.
+    #[error("the motion is invalid: {0}")]
     Motion(&'static str),
     /// Arrays of an asset that do not fit together.
     #[error("asset `{asset}`: {problem}; bake it again")]

@@ -84,7 +84,7 @@ async fn deliver(bridge: Bridge, (function, scene): (&str, String), delivery: De
     let promise = bridge.call(function, &[scene.into(), tell_function]);
     let promise = promise.and_then(|promise| {
         let promise: Result<Promise, _> = promise.dyn_into();
-        promise.map_err(|_| format!("`{function}` gave no promise"))
+        promise.map_err(|_| format!("`{function}` did not return a promise"))
     });
     let brought = match promise {
         Ok(promise) => JsFuture::from(promise).await.map_err(|error| said(&error)),

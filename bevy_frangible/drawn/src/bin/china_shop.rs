@@ -11,7 +11,7 @@ use drawn::{Materials, View};
 use shop::{Ball, Board, Rules};
 
 const VIEW: View = View {
-    title: "A china shop: space for a ball, G for weak points",
+    title: "A china shop: space throws a ball, G shows weak points",
     eye: Vec3::new(-0.45, 1.2, 3.1),
     target: Vec3::new(-0.95, 0.88, 1.2),
     rate: 60.0,

@@ -11,7 +11,7 @@ use drawn::{Props, View};
 use frangible_bake::Shape;
 
 const VIEW: View = View {
-    title: "A glass falls on stone: space for another, G for weak points",
+    title: "A glass falls on stone: space drops another, G shows weak points",
     eye: Vec3::new(0.25, 0.3, 0.85),
     target: Vec3::new(0.0, 0.18, 0.0),
     rate: 240.0,

@@ -9,7 +9,7 @@ use drawn::{Props, View};
 use frangible_bake::Shape;
 
 const VIEW: View = View {
-    title: "A wall of bricks: space for another ball, G for weak points",
+    title: "A brick wall: space throws another ball, G shows weak points",
     eye: Vec3::new(1.0, 0.75, 1.7),
     target: Vec3::new(-0.05, 0.22, 0.0),
     rate: 240.0,

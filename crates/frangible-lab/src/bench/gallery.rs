@@ -123,7 +123,7 @@ pub fn chosen(names: &[String]) -> Result<Vec<Subject>, BenchError> {
         known.copied().ok_or_else(|| {
             let known: Vec<&str> = SUBJECTS.iter().map(|s| s.scene).collect();
             BenchError::NotAsMeant(format!(
-                "`{name}` is no body of the gallery's table; those are {}",
+                "`{name}` is not a body of the gallery's table; the bodies are {}",
                 known.join(", ")
             ))
         })

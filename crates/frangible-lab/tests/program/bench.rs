@@ -110,7 +110,7 @@ fn what_cannot_be_measured_is_refused() {
     refused(&["bench", "table1", "--body", "cow"], &["slab-low"]);
     refused(
         &["bench", "table1", "--body", "slab-low", "--write", "."],
-        &["leave out --body"],
+        &["remove --body"],
     );
     refused(&["bench", "shop", "--body", "glass"], &["bench table1"]);
     refused(&["bench", "--runs", "0"], &["1..=10000"]);

@@ -52,7 +52,7 @@ fn a_scene_in_which_nothing_breaks_is_refused_and_leaves_no_folder() {
     let message = text(&output.stderr);
     assert!(!output.status.success());
     assert!(
-        message.contains("no impact breaks anything in the scene `soft`"),
+        message.contains("no impact breaks a body in the scene `soft`"),
         "{message}"
     );
     assert!(message.contains("--seed"), "{message}");

@@ -32,25 +32,25 @@ const SMALLEST: f32 = 1e-28;
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum RescaleError {
-    /// The modes would be others, which no factor gives.
+    /// The Poisson's ratio differs, so the modes cannot be rescaled.
     #[error(
-        "`{asset}` is baked of {baked_material} with Poisson's ratio {baked}, and {wanted_material} has {wanted}: modes of another ratio need another bake; bake it again of {wanted_material}, or give a material of ratio {baked}"
+        "`{asset}` was baked from {baked_material} with Poisson's ratio {baked}, but {wanted_material} has {wanted}, which changes the modes; bake it again from {wanted_material}, or give a material with Poisson's ratio {baked}"
     )]
     PoissonRatio {
         /// Name of the asset.
         asset: String,
-        /// Material it was baked of.
+        /// Material from which it was baked.
         baked_material: String,
         /// Poisson's ratio it was baked with.
         baked: f64,
-        /// Material that was asked for.
+        /// Requested material.
         wanted_material: String,
         /// Its Poisson's ratio.
         wanted: f64,
     },
-    /// Mode shapes or stresses would fade into the smallest numbers of f32, or beyond.
+    /// Mode shapes or stresses would underflow or overflow f32.
     #[error(
-        "`{asset}`, changed like this, leaves the range of its numbers; change size or material by less"
+        "this change takes the mode shapes of `{asset}` out of the range of f32; change the size or the material by less"
     )]
     OutOfRange {
         /// Name of the asset.
@@ -61,7 +61,7 @@ pub enum RescaleError {
     Input(#[from] InputError),
 }
 
-/// The asset of another material of the same Poisson's ratio, as if baked of it.
+/// Returns the asset with another material of the same Poisson's ratio, as if it had been baked from it.
 ///
 /// # Errors
 /// [`RescaleError::PoissonRatio`] for a material of another ratio; a number of the material out of its range.
@@ -94,7 +94,7 @@ pub fn with_material(asset: &Asset, material: &Material) -> Result<Asset, Rescal
     checked(asset)
 }
 
-/// The asset `factor` times as large, of the same material, as if the shape had been baked at that size.
+/// Returns the asset scaled by `factor`, with the same material, as if the shape had been baked at that size.
 ///
 /// Curvature radii at [`SMALLEST_CURVATURE_RADIUS`] stay there: edges of a larger body are no blunter. A rounding that the
 /// bake clamped to it is not found again by growing.

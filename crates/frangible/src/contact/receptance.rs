@@ -95,9 +95,9 @@ impl Receptance {
         numbers
     }
 
-    /// Reads what [`Self::to_numbers`] gave; [`Self::validate`] is still to check it.
+    /// Reads the output of [`Self::to_numbers`]; call [`Self::validate`] afterwards.
     pub(crate) fn of_numbers(numbers: &[f64], modes: usize) -> Result<Self, InputError> {
-        let torn = InputError::Receptance("its numbers are not as many as its modes ask for");
+        let torn = InputError::Receptance("the number of its values does not match its number of modes");
         let Some((&head, lists)) = numbers.split_first_chunk::<16>() else {
             return Err(torn);
         };
@@ -118,17 +118,17 @@ impl Receptance {
             0.0 => None,
             1.0 => Some(PlateTheory::Kirchhoff),
             2.0 => Some(PlateTheory::Layer),
-            _ => return Err(InputError::Receptance("its wall is of no known theory")),
+            _ => return Err(InputError::Receptance("the plate theory of its wall is unknown")),
         };
         let whole = followed as usize;
         // Bit for bit: what would not be written again is refused.
         if (whole as f64).to_bits() != followed.to_bits() {
             return Err(InputError::Receptance(
-                "the number of its modes is not whole",
+                "its number of modes is not a whole number",
             ));
         }
         if theory.is_none() && head[4..].iter().any(|x| x.to_bits() != 0) {
-            return Err(InputError::Receptance("it has numbers of a wall, and none"));
+            return Err(InputError::Receptance("it has values for a wall, but no wall"));
         }
         Ok(Self {
             eigenvalues: lists[..modes].to_vec(),
@@ -151,7 +151,7 @@ impl Receptance {
         let count = self.eigenvalues.len();
         if self.followed > count || self.shape.len() != count {
             return Err(InputError::Receptance(
-                "its modes and their shapes are not equally many",
+                "its eigenvalues and mode shapes differ in number",
             ));
         }
         // Modes come of numbers of four bytes.
@@ -191,7 +191,7 @@ impl Receptance {
         match sound {
             true => Ok(()),
             false => Err(InputError::Receptance(
-                "a number of its wall is not a finite number above zero",
+                "a value of its wall is not a finite number above zero",
             )),
         }
     }

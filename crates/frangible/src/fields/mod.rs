@@ -130,7 +130,7 @@ impl Fields {
         let there = |t: &[u32; 3]| t.iter().all(|&v| (v as usize) < positions.len());
         if triangles.is_empty() || !triangles.iter().all(there) {
             return Err(InputError::Field(
-                "the painted surface has no triangle, or one with a vertex that is not there"
+                "the painted surface has no triangle, or a triangle with a vertex that does not exist"
                     .into(),
             ));
         }
@@ -162,7 +162,7 @@ impl Fields {
         if !self.of_tet.is_empty() && self.of_tet.len() != tets {
             let given = self.of_tet.len();
             return Err(InputError::Field(format!(
-                "there are factors for {given} tetrahedra and the body has {tets}; make them of its own asset"
+                "there are factors for {given} tetrahedra, but the body has {tets}; make the fields from the body's own asset"
             )));
         }
         for (tet, f) in self.of_tet.iter().enumerate() {

@@ -53,7 +53,7 @@ fn run(
 ) -> Result<Outcome, InputError> {
     if motion.modes != body.asset.modes.followed() || motion.steps() == 0 {
         return Err(InputError::Motion(
-            "it must have an amplitude for each of the body's modes and one time step or more",
+            "it must have one amplitude per mode of the body and at least one time step",
         ));
     }
     if !motion.amplitudes.iter().all(|q| q.is_finite()) {

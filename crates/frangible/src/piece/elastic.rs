@@ -61,12 +61,12 @@ impl Body {
         let (tets, nodes) = (portion.tets(), portion.nodes());
         let misfit = |problem: &str| InputError::Asset {
             asset: root.name.clone(),
-            problem: format!("the elastic body of a piece cannot be used: {problem}"),
+            problem: format!("the elastic body of a piece is invalid: {problem}"),
         };
         if !Arc::ptr_eq(&self.asset.fracture, &root.fracture) {
             return Err(InputError::Asset {
                 asset: root.name.clone(),
-                problem: "the portion is of another body; give it to the body that broke".into(),
+                problem: "the portion belongs to another body; pass it to the body that broke".into(),
             });
         }
         if elastic.tets.len() != tets.len() || elastic.nodes.len() != nodes.len() {

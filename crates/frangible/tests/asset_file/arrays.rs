@@ -11,8 +11,8 @@ fn arrays_that_do_not_fit_are_refused() {
             |a| a.supported[1] = 8,
             "supported node 1 lies beyond the 8 nodes",
         ),
-        (|a| a.supported[1] = 1, "supported nodes do not rise"),
-        (|a| a.supported.reverse(), "supported nodes do not rise"),
+        (|a| a.supported[1] = 1, "supported nodes are not in ascending order"),
+        (|a| a.supported.reverse(), "supported nodes are not in ascending order"),
         (|a| a.material.density = f64::NAN, "density"),
         (|a| a.mass.mass = 0.0, "its mass is 0"),
         (|a| a.mass.volume = f64::INFINITY, "its volume is inf"),
@@ -21,7 +21,7 @@ fn arrays_that_do_not_fit_are_refused() {
         (|a| mesh(a).tets.clear(), "no tetrahedra"),
         (
             |a| mesh(a).tets[2][1] = 8,
-            "tetrahedron 2 names a node beyond the 8",
+            "tetrahedron 2 refers to a node beyond the 8",
         ),
         (|a| mesh(a).tets[3].swap(0, 1), "volume of tetrahedron 3"),
         (
@@ -33,22 +33,22 @@ fn arrays_that_do_not_fit_are_refused() {
             "node 4 is not finite",
         ),
         (|a| mesh(a).neighbours.truncate(5), "neighbour row"),
-        (|a| mesh(a).neighbours.swap(0, 1), "do not name each other"),
+        (|a| mesh(a).neighbours.swap(0, 1), "are not neighbours of each other"),
         (
             |a| mesh(a).neighbours[0] = [0; 4],
-            "tetrahedra 0 and 0 do not name each other",
+            "tetrahedra 0 and 0 are not neighbours of each other",
         ),
         (
             |a| *outside(a, 1) = 6,
-            "tetrahedron 1 names neighbour 6 of 6",
+            "tetrahedron 1 refers to neighbour 6, but there are only 6",
         ),
         (
             |a| a.surface.triangles[1] = [0, 1, 99],
-            "surface triangle 1 is no outer face",
+            "surface triangle 1 is not an outer face",
         ),
         (
             |a| a.surface.tets[1] = 6,
-            "surface triangle 1 names tetrahedron 6",
+            "surface triangle 1 refers to tetrahedron 6",
         ),
         (
             |a| a.surface.triangles.truncate(11),
@@ -56,7 +56,7 @@ fn arrays_that_do_not_fit_are_refused() {
         ),
         (
             |a| a.surface.triangles[1] = [0, 0, 0],
-            "surface triangle 1 is no outer face",
+            "surface triangle 1 is not an outer face",
         ),
         (
             |a| a.surface.normals.clear(),
@@ -92,11 +92,11 @@ fn arrays_that_do_not_fit_are_refused() {
         ),
         (
             |a| a.modes.residual_modes = 3,
-            "3 of its 3 modes are to answer statically",
+            "3 of its 3 modes respond statically",
         ),
         (
             |a| a.analysis.elements[1][9] = 10,
-            "analysis element 1 names a node beyond",
+            "analysis element 1 refers to a node beyond",
         ),
         (
             |a| a.analysis.barycentric_gradients.truncate(1),
@@ -104,7 +104,7 @@ fn arrays_that_do_not_fit_are_refused() {
         ),
         (
             |a| a.embedding.tets[5].element = 2,
-            "embedded centroid 5 names",
+            "embedded centroid 5 refers",
         ),
         (
             |a| a.embedding.nodes[7].offset.x = f32::NAN,
@@ -122,7 +122,7 @@ fn arrays_that_do_not_fit_are_refused() {
         (|a| a.cell_of_tet[1] = 1, "cell number of tetrahedron 1"),
         (
             |a| drawn(a).triangles[1][0] = 4,
-            "render triangle 1 names a vertex",
+            "render triangle 1 refers to a vertex",
         ),
         (
             |a| drawn(a).material_of_triangle[0] = 2,

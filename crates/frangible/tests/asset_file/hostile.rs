@@ -114,7 +114,7 @@ fn other_files_are_told_apart() {
         assert!(message.contains(word), "{message}");
     }
     let unknown = Asset::from_bytes(b"hello").unwrap_err().to_string();
-    assert!(unknown.contains("something else"), "{unknown}");
+    assert!(unknown.contains("another kind of file"), "{unknown}");
 }
 
 #[test]
@@ -127,7 +127,7 @@ fn another_version_is_refused_before_anything_else_is_believed_and_says_how_to_g
         assert_eq!(error, AssetFileError::Version { found, supported });
         let text = error.to_string();
         assert!(
-            text.contains(&format!("format is {found}, this one's is {supported}")),
+            text.contains(&format!("format version is {found}, but this build reads version {supported}")),
             "{text}"
         );
         assert!(text.contains("bake it again: frangible bake"), "{text}");
@@ -150,7 +150,7 @@ fn hostile_half_precision_is_refused() {
     }
     for scale in [0.0, -1.0, f32::NAN, f32::INFINITY] {
         let at = data_of(&bytes, 84) + 4;
-        expect(with(at, &scale.to_le_bytes()), "that of mode 1");
+        expect(with(at, &scale.to_le_bytes()), "for mode 1");
     }
     // Finite, but the product is not.
     let at = data_of(&bytes, 84);
@@ -158,7 +158,7 @@ fn hostile_half_precision_is_refused() {
     let entry = entry_of(&bytes, 83);
     expect(with(entry + 4, &3_u16.to_le_bytes()), "1 f32 numbers");
     expect(with(entry + 6, &3_u16.to_le_bytes()), "rows of 3 f16");
-    expect(with(entry + 16, &3_u64.to_le_bytes()), "no whole number");
+    expect(with(entry + 16, &3_u64.to_le_bytes()), "not a multiple");
     expect(with(entry + 16, &4_u64.to_le_bytes()), "rows of 3 modes");
     expect(with(entry + 16, &6_u64.to_le_bytes()), "mode shapes hold 3");
     expect(with(entry + 16, &0_u64.to_le_bytes()), "mode shapes hold 0");
@@ -183,14 +183,14 @@ fn a_hostile_table_is_refused() {
         with(20, &u32::MAX.to_le_bytes()),
         "does not hold the 4294967295 sections",
     );
-    expect(with(at + 8, &(start + 4).to_le_bytes()), "no multiple of 8");
+    expect(with(at + 8, &(start + 4).to_le_bytes()), "not a multiple of 8");
     expect(
         with(at + 8, &0_u64.to_le_bytes()),
-        "within what comes before",
+        "inside the data before it",
     );
     expect(
         with(at + 8, &(start - 8).to_le_bytes()),
-        "within what comes before",
+        "inside the data before it",
     );
     expect(with(at + 16, &u64::MAX.to_le_bytes()), "beyond the end");
     expect(
@@ -199,7 +199,7 @@ fn a_hostile_table_is_refused() {
     );
     expect(
         with(at + 16, &15_u64.to_le_bytes()),
-        "no whole number of rows",
+        "not a multiple of the row size",
     );
     expect(with(at + 4, &3_u16.to_le_bytes()), "holds rows of 4 f32");
     expect(with(at + 4, &999_u16.to_le_bytes()), "unknown");
@@ -220,16 +220,16 @@ fn a_hostile_table_is_refused() {
     expect(with(data_of(&bytes, 1), &[0xff]), "not UTF-8");
     expect(
         with(data_of(&bytes, 96), &u32::MAX.to_le_bytes()),
-        "does not share the 8 cell points",
+        "does not divide the 8 cell points",
     );
     expect(
         with(data_of(&bytes, 96), &0_u32.to_le_bytes()),
-        "does not share the 8 cell points",
+        "does not divide the 8 cell points",
     );
     // The third byte of "Glasur –" …: the dash is three bytes from the eighth on.
     let lengths: Vec<u8> = [8_u32, 8].iter().flat_map(|n| n.to_le_bytes()).collect();
     expect(
         with(data_of(&bytes, 118), &lengths),
-        "does not share the names",
+        "does not divide the names",
     );
 }

@@ -11,7 +11,7 @@ use frangible_bake::{Region, Shape, Support};
 use person::{Person, Throw};
 
 const VIEW: View = View {
-    title: "Click to take the mouse and to throw a stone; W A S D to walk, G for weak points, escape for the mouse",
+    title: "Click to capture the mouse and throw a stone; W A S D to walk, G for weak points, Escape to release the mouse",
     eye: Vec3::new(1.0, 1.6, 1.5),
     target: Vec3::new(0.04, 1.47, 0.0),
     rate: 240.0,

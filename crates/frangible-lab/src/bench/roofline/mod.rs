@@ -110,7 +110,7 @@ pub fn measure(
     cache: &Cache,
     progress: &mut dyn FnMut(&str, f64),
 ) -> Result<Findings, BenchError> {
-    progress("peaks of the machine", 0.0);
+    progress("measuring the peaks of the machine", 0.0);
     let arithmetic = Arithmetic::measure();
     let memory = SIZES.map(|(_, size)| Memory::measure(size)).to_vec();
     let mut bodies = Vec::new();

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
-/// Computes the evidence for frangible and writes the pages of the documentation.
+/// Runs the validation and benchmarks of Frangible and writes the results as documentation pages.
 #[derive(Debug, Parser)]
 #[command(name = "frangible-lab", version)]
 pub(crate) struct Cli {
@@ -14,24 +14,24 @@ pub(crate) struct Cli {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// Check modes, responses and contacts against closed forms, and fail when one is off (seconds; verification.md)
+    /// Check modes, responses and contacts against closed-form solutions; fail if one exceeds its tolerance (seconds; verification.md)
     Verify(PageArgs),
     /// Compare cracks and pieces with published experiments (minutes; experiments.md)
     Experiments(PageArgs),
-    /// Compare the ways to find how fragments vibrate with a full analysis of each fragment (minutes; recursive.md)
+    /// Compare approximate vibration modes of fragments with a full analysis of each fragment (minutes; recursive.md)
     Pieces(PiecesArgs),
     /// Tabulate the near field, the residual vector and the force of a blow (a minute; near-field.md)
     NearField(PageArgs),
-    /// Strike and break things, listen, and compare with closed forms and published spectra (minutes; sound.md)
+    /// Compare synthesised sounds with closed-form solutions and published spectra (minutes; sound.md)
     Sound(PageArgs),
-    /// Compute the figures of the paper this model is taken from, and judge each claim (minutes; figures.md)
+    /// Reproduce the figures of the paper on which the model is based, and check each of its claims (minutes; figures.md)
     Figures(FiguresArgs),
-    /// Measure how fast the bodies of the paper's Table 1 break, how fast harmless contacts are refused, and more (performance.md)
+    /// Measure the time of breaks of the bodies in the paper's Table 1, the time to reject harmless contacts, and more (performance.md)
     Bench(BenchArgs),
-    /// Draw the pictures of the documentation's gallery, and with --hero the film of its first page (a minute each)
+    /// Draw the pictures of the documentation's gallery, or with --hero the film on the first page (a minute each)
     Gallery(GalleryArgs),
-    /// Break the same impact by several methods, side by side: ours, quasi-static, along element faces, Voronoi cells by strain
-    /// energy, Voronoi cells around the impact; write a picture (PNG) and a table (Markdown, JSON)
+    /// Compare fracture methods on the same impact: ours, quasi-static, along element faces, Voronoi cells by strain energy, Voronoi
+    /// cells around the impact; write a picture (PNG) and a table (Markdown, JSON)
     Compare(CompareArgs),
 }
 
@@ -41,14 +41,14 @@ pub(crate) struct PageArgs {
     #[arg(long)]
     pub(crate) json: bool,
 
-    /// Also write the command's page and its pictures into this folder, made when it is missing
+    /// Also write the command's page and its pictures to this folder, created if it does not exist
     #[arg(long, value_name = "DIR")]
     pub(crate) write: Option<PathBuf>,
 }
 
 #[derive(Args, Clone, Debug)]
 pub(crate) struct GalleryArgs {
-    /// Scenes to draw [default: all that the gallery shows]
+    /// Scenes to draw [default: all scenes of the gallery]
     #[arg(value_name = "SCENE")]
     pub(crate) scenes: Vec<String>,
 
@@ -56,7 +56,7 @@ pub(crate) struct GalleryArgs {
     #[arg(long, conflicts_with = "scenes")]
     pub(crate) hero: bool,
 
-    /// Folder for the pictures, made when it is missing
+    /// Folder for the pictures, created if it does not exist
     #[arg(long, default_value = "docs/gallery", value_name = "DIR")]
     pub(crate) write: PathBuf,
 }
@@ -66,7 +66,7 @@ pub(crate) struct PiecesArgs {
     #[command(flatten)]
     pub(crate) page: PageArgs,
 
-    /// How many fragments are analysed, 1 to 10000 [default: 200]
+    /// Number of fragments to analyse, 1 to 10000 [default: 200]
     #[arg(long, value_name = "N", value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(1..=10_000))]
     pub(crate) count: Option<usize>,
 }
@@ -77,7 +77,7 @@ pub(crate) struct FiguresArgs {
     #[arg(value_name = "NAME")]
     pub(crate) names: Vec<String>,
 
-    /// Folder for figures.md and its pictures, made when it is missing; figures not computed keep their place on the page
+    /// Folder for figures.md and its pictures, created if it does not exist; figures that are not computed stay unchanged on the page
     #[arg(short = 'o', long, default_value = "out", value_name = "DIR")]
     pub(crate) write: PathBuf,
 
@@ -91,52 +91,52 @@ pub(crate) struct FiguresArgs {
 pub(crate) enum Measured {
     /// The bodies of the paper's Table 1
     Table1,
-    /// The bodies of the gallery: whole breaks beside the project's goals
+    /// The bodies of the gallery: whole breaks, compared with the project's goals
     Gallery,
-    /// Refused contacts
+    /// Rejected contacts
     Contacts,
-    /// A plate under a hand, a thousand times a second
+    /// Haptics: a plate touched at 1000 Hz
     Haptic,
     /// A bull in a china shop
     Shop,
-    /// Scenes whose pieces break again, as a game plays them
+    /// Scenes with pieces that break again, with a game's settings
     Again,
-    /// Many impacts on a GPU beside the CPU
+    /// Batches of impacts on the GPU and on the CPU
     Gpu,
     /// All of these
     All,
-    /// How near the initiation comes to the machine's peaks of arithmetic and memory; written as roofline.md
+    /// Roofline of crack initiation: achieved and peak rates of arithmetic and memory (roofline.md)
     Roofline,
 }
 
 #[derive(Args, Clone, Debug)]
 pub(crate) struct BenchArgs {
-    /// What to measure
+    /// Benchmark to run
     #[arg(value_enum, default_value = "all")]
     pub(crate) what: Measured,
 
-    /// Only this body of Table 1, or of the gallery; repeat it for several
+    /// Measure only this body of Table 1 or of the gallery; may be repeated
     #[arg(long = "body", value_name = "NAME")]
     pub(crate) bodies: Vec<String>,
 
-    /// Equal runs, 1 to 10000: of Table 1 and the gallery warm runs of each body (30, fewer where they take longer than ten seconds), of
-    /// the plate, the shop and the scenes runs of which each tick's and frame's least time counts (5)
+    /// Number of runs, 1 to 10000: for Table 1 and the gallery, warm runs of each body [default: 30, fewer if they take over ten seconds];
+    /// for the plate, the shop and the scenes, runs of which the shortest time of each tick or frame counts [default: 5]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub(crate) runs: Option<u32>,
 
-    /// Ticks of 1 ms that the plate is felt for, 100 to 10000000
+    /// Number of ticks of 1 ms in the haptics benchmark, 100 to 10000000
     #[arg(long, value_name = "N", default_value_t = 20_000, value_parser = clap::value_parser!(u32).range(100..=10_000_000))]
     pub(crate) ticks: u32,
 
-    /// Leave out the paper's algorithms word for word, which take most of the time
+    /// Skip the literal implementation of the paper's algorithms, which takes most of the time
     #[arg(long)]
     pub(crate) no_reference: bool,
 
-    /// Folder of the baked bodies, made when it is missing
+    /// Folder for the baked bodies, created if it does not exist
     #[arg(long, value_name = "DIR", default_value = "target/bench")]
     pub(crate) cache: PathBuf,
 
-    /// Bake all bodies anew
+    /// Bake all bodies again
     #[arg(long)]
     pub(crate) rebake: bool,
 
@@ -144,42 +144,43 @@ pub(crate) struct BenchArgs {
     #[arg(long)]
     pub(crate) json: bool,
 
-    /// Also write what was measured into its section of performance.md in this folder, made when it is missing, of all bodies and baked anew; or roofline.md
+    /// Also write the results to their section of performance.md, or to roofline.md, in this folder, created if it does not exist; measures all
+    /// bodies, baked again
     #[arg(long, value_name = "DIR")]
     pub(crate) write: Option<PathBuf>,
 }
 
 #[derive(Args, Clone, Debug)]
 pub(crate) struct CompareArgs {
-    /// Scene (.toml), mesh or baked body instead of a built-in scene
+    /// Scene (.toml), mesh or baked body to use instead of a built-in scene
     #[arg(value_name = "FILE", conflicts_with = "scene")]
     pub(crate) file: Option<PathBuf>,
 
-    /// Built-in scene, played up to its first break [default: glass]
+    /// Built-in scene, simulated up to its first break [default: glass]
     #[arg(long, value_name = "NAME")]
     pub(crate) scene: Option<String>,
 
-    /// Seed of the weak points, of the cracks' roughness and of Voronoi sites [default: the scene's own]
+    /// Random seed for the weak points, the roughness of the cracks and the Voronoi sites [default: the scene's own]
     #[arg(long, value_name = "N")]
     pub(crate) seed: Option<u64>,
 
-    /// Only these methods: ours, quasi-static, elements, energy-voronoi, voronoi
+    /// Methods to compare [default: all]: ours, quasi-static, elements, energy-voronoi, voronoi
     #[arg(long, value_name = "NAME,NAME", value_delimiter = ',')]
     pub(crate) methods: Vec<String>,
 
-    /// Time over which the quasi-static method spreads the impulse, ms [default: 0.26, a step of the rigid bodies]
+    /// Duration over which the quasi-static method spreads the impulse, in ms [default: 0.26, one rigid-body step]
     #[arg(long, value_name = "MS", allow_negative_numbers = true)]
     pub(crate) step: Option<f64>,
 
-    /// Voronoi sites drawn by strain energy [default: 100]
+    /// Number of Voronoi sites sampled by strain energy [default: 100]
     #[arg(long, value_name = "N")]
     pub(crate) sites: Option<usize>,
 
-    /// Voronoi sites around the impact point [default: as many as ours has pieces, 2 at least]
+    /// Number of Voronoi sites around the impact point [default: the number of pieces of our method, at least 2]
     #[arg(long, value_name = "N")]
     pub(crate) cells: Option<usize>,
 
-    /// Folder for the results, made when it is missing
+    /// Folder for the results, created if it does not exist
     #[arg(long, default_value = "out", value_name = "DIR")]
     pub(crate) out: PathBuf,
 
@@ -187,11 +188,11 @@ pub(crate) struct CompareArgs {
     #[arg(long)]
     pub(crate) json: bool,
 
-    /// No picture
+    /// Write no picture
     #[arg(long)]
     pub(crate) no_pictures: bool,
 
-    /// Write compare.md, about some of the built-in scenes, and its pictures into this folder instead
+    /// Compare the methods on several built-in scenes instead, and write compare.md and its pictures to this folder
     #[arg(long, value_name = "DIR", conflicts_with_all = ["file", "scene", "seed", "methods", "json", "no_pictures"])]
     pub(crate) write: Option<PathBuf>,
 }

@@ -43,7 +43,7 @@ pub(crate) fn run(args: &BenchArgs) -> Result<(), Box<dyn Error>> {
     }
     if let Some(folder) = &args.write {
         if !args.bodies.is_empty() {
-            return Err("--write writes a page of all bodies: leave out --body".into());
+            return Err("--write writes a page about all bodies; remove --body".into());
         }
         make_folder(folder, &[PAGE.into()], "--write")?;
     }
@@ -53,7 +53,7 @@ pub(crate) fn run(args: &BenchArgs) -> Result<(), Box<dyn Error>> {
         Measured::Gallery => _ = gallery::chosen(&args.bodies)?,
         _ if args.bodies.is_empty() => {}
         _ => {
-            let problem = "--body chooses among the bodies of Table 1 or of the gallery: frangible-lab bench table1 --body NAME, or bench gallery --body NAME";
+            let problem = "--body applies only to `bench table1` and `bench gallery`, for example frangible-lab bench table1 --body NAME";
             return Err(problem.into());
         }
     }

@@ -14,7 +14,7 @@ const PICTURES: &str = "sound";
 pub(crate) fn run(args: &PageArgs) -> Result<(), Box<dyn Error>> {
     let place = Page::new(args.write.as_deref(), PAGE, PICTURES)?;
     let bar = Bar::new(args.json);
-    let heard = Heard::compute(&mut |share| bar.show("striking and listening", share))?;
+    let heard = Heard::compute(&mut |share| bar.show("simulating blows and sound", share))?;
     drop(bar);
     place.tell(heard.page(PICTURES)?, args.json)
 }

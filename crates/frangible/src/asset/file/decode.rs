@@ -158,7 +158,7 @@ fn cells(r: &Reader<'_>) -> Result<Vec<ConvexCell>, AssetFileError> {
     let sound = !sizes.contains(&0) && sum(&sizes) == points.len() as u64;
     if !sound {
         let problem = format!(
-            "does not share the {} cell points among cells of one and more",
+            "does not divide the {} cell points into cells of one point or more",
             points.len()
         );
         return Err(AssetFileError::section(s::CELL_SIZES.name, problem));
@@ -202,13 +202,13 @@ fn shapes(r: &Reader<'_>) -> Result<Vec<f32>, AssetFileError> {
     }
     let scales = r.rows::<f32>(s::HALF_SCALES)?;
     if let Some(mode) = scales.iter().position(|s| !(s.is_finite() && *s > 0.0)) {
-        let problem = format!("are not above zero and finite: that of mode {mode}");
+        let problem = format!("has a value that is not finite and above zero, for mode {mode}");
         return Err(AssetFileError::section(s::HALF_SCALES.name, problem));
     }
     let halves = r.each::<Half>(s::HALF_SHAPES)?;
     if halves.len() > 0 && (scales.is_empty() || !halves.len().is_multiple_of(scales.len())) {
         let problem = format!(
-            "has {} numbers, no whole number of rows of {} modes",
+            "has {} numbers, which is not a whole number of rows of {} modes",
             halves.len(),
             scales.len()
         );
@@ -225,7 +225,7 @@ fn supported(r: &Reader<'_>) -> Result<Vec<u32>, AssetFileError> {
     }
     let nodes = r.rows(s::SUPPORTED)?;
     if nodes.is_empty() {
-        let problem = "is empty, as if the body were free";
+        let problem = "is empty, although a free body has no such section";
         return Err(AssetFileError::section(s::SUPPORTED.name, problem));
     }
     Ok(nodes)
@@ -256,7 +256,7 @@ fn render_materials(r: &Reader<'_>) -> Result<Vec<RenderMaterial>, AssetFileErro
     let lengths = r.rows::<u32>(s::RENDER_NAME_LENGTHS)?;
     let mut names = r.text(s::RENDER_NAMES)?;
     let fail = || {
-        let problem = "does not share the names among the materials";
+        let problem = "does not divide the names among the materials";
         AssetFileError::section(s::RENDER_NAME_LENGTHS.name, problem)
     };
     if lengths.len() != numbers.len() || sum(&lengths) != names.len() as u64 {

@@ -12,7 +12,7 @@ use crate::error::InputError;
 pub enum AssetFileError {
     /// The first bytes are not those of an asset.
     #[error(
-        "it is no baked asset, but looks like {looks_like}; bake the mesh first and load what that writes"
+        "it is not a baked asset but looks like {looks_like}; bake the mesh and load the resulting file"
     )]
     NotAnAsset {
         /// Kind of file that the bytes look like.
@@ -20,7 +20,7 @@ pub enum AssetFileError {
     },
     /// Written by another version of the format.
     #[error(
-        "it was baked by another version of Frangible (its format is {found}, this one's is {supported}); bake it again: frangible bake FILE --output NAME.frangible"
+        "it was baked by another version of Frangible (its format version is {found}, but this build reads version {supported}); bake it again: frangible bake FILE --output NAME.frangible"
     )]
     Version {
         /// Version of the file.
@@ -38,7 +38,7 @@ pub enum AssetFileError {
     },
     /// Something follows the end.
     #[error(
-        "it has {found} bytes where its header tells of {expected}; copy it again, or bake it again"
+        "it has {found} bytes, but its header states {expected}; copy it again, or bake it again"
     )]
     TooLong {
         /// Length that the header states, bytes.

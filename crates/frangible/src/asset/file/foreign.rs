@@ -18,7 +18,7 @@ pub(super) fn looks_like(bytes: &[u8]) -> &'static str {
         () if start.starts_with(b"\x1f\x8b") => "a gzip archive",
         () if start.starts_with(b"version https://git-lfs") => "a Git LFS pointer, not yet pulled",
         () if is_obj(text) => "an OBJ mesh",
-        () => "something else",
+        () => "another kind of file",
     }
 }
 

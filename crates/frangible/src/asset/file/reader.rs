@@ -29,7 +29,7 @@ impl<'a> Reader<'a> {
             .checked_mul(ENTRY)
             .and_then(|length| bytes.get(HEADER..)?.get(..length))
             .ok_or_else(|| {
-                let problem = format!("does not hold the {count} sections it should");
+                let problem = format!("does not hold the {count} sections that the header states");
                 AssetFileError::section("section table", problem)
             })?;
         let mut free = HEADER + table.len();
@@ -71,7 +71,7 @@ impl<'a> Reader<'a> {
         }
         if !entry.data.len().is_multiple_of(T::SIZE) {
             return fail(format!(
-                "has {} bytes, no whole number of rows of {}",
+                "has {} bytes, which is not a multiple of the row size of {}",
                 entry.data.len(),
                 T::SIZE
             ));
@@ -158,7 +158,7 @@ fn entry<'a>(
     if !offset.is_multiple_of(ALIGNMENT as u64) {
         return Err(fail(
             id,
-            &format!("starts at byte {offset}, no multiple of {ALIGNMENT}"),
+            &format!("starts at byte {offset}, which is not a multiple of {ALIGNMENT}"),
         ));
     }
     let start = usize::try_from(offset).unwrap_or(usize::MAX);
@@ -166,7 +166,7 @@ fn entry<'a>(
     if start < free {
         return Err(fail(
             id,
-            &format!("starts at byte {offset}, within what comes before it"),
+            &format!("starts at byte {offset}, inside the data before it"),
         ));
     }
     let Some(data) = bytes.get(start..end) else {

@@ -24,7 +24,7 @@ pub(crate) fn embedded(what: &str, points: &[EmbeddedPoint], elements: usize) ->
         points,
         |p| (p.element as usize) < elements,
         |i| {
-            format!("embedded {what} {i} names an analysis element beyond the {elements} there are")
+            format!("embedded {what} {i} refers to an analysis element beyond the {elements} that exist")
         },
     )?;
     let sound =
@@ -45,7 +45,7 @@ pub(crate) fn modes(modes: &ModalBasis, nodes: usize) -> Check {
     }
     if modes.residual_modes > 0 && modes.residual_modes >= count {
         return Err(format!(
-            "{} of its {count} modes are to answer statically, and none is left to follow; follow one at least",
+            "{} of its {count} modes respond statically, which leaves none to integrate through time; integrate at least one",
             modes.residual_modes
         ));
     }

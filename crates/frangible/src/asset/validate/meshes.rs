@@ -18,7 +18,7 @@ pub(super) fn tetrahedra(mesh: &TetMesh) -> Check {
     })
 }
 
-/// Checks that each tetrahedron is named by the neighbours that it names, across the same three nodes.
+/// Checks that neighbour references are mutual and across the same three nodes.
 pub(super) fn neighbours(mesh: &TetMesh) -> Check {
     let tets = mesh.tets.len();
     one_each("tetrahedron", tets, "neighbour row", mesh.neighbours.len())?;
@@ -29,7 +29,7 @@ pub(super) fn neighbours(mesh: &TetMesh) -> Check {
             }
             let o = other as usize;
             let (Some(other_tet), Some(back)) = (mesh.tets.get(o), mesh.neighbours.get(o)) else {
-                return Err(format!("tetrahedron {e} names neighbour {o} of {tets}"));
+                return Err(format!("tetrahedron {e} refers to neighbour {o}, but there are only {tets}"));
             };
             let same = |f: &[usize; 3]| {
                 let theirs = f.map(|i| other_tet[i]);
@@ -42,7 +42,7 @@ pub(super) fn neighbours(mesh: &TetMesh) -> Check {
                     .any(|(f, &b)| b as usize == e && same(f))
             {
                 return Err(format!(
-                    "tetrahedra {e} and {o} do not name each other across one face"
+                    "tetrahedra {e} and {o} are not neighbours of each other across a common face"
                 ));
             }
         }

@@ -32,8 +32,7 @@ impl Asset {
     fn check(&self) -> Check {
         if self.portion.is_some() {
             return Err(
-                "it is that of a piece, which lives as long as its body; keep the asset that the piece came from, \
-                 `Asset::root`, and replay its impacts"
+                "it belongs to a piece, which exists only as long as its body; keep the asset that the piece came from, `Asset::root`, and replay its impacts"
                     .into(),
             );
         }
@@ -68,7 +67,7 @@ impl Asset {
         for (t, (triangle, &tet)) in surface.triangles.iter().zip(&surface.tets).enumerate() {
             let Some(behind) = mesh.tets.get(tet as usize) else {
                 return Err(format!(
-                    "surface triangle {t} names tetrahedron {tet} of {}",
+                    "surface triangle {t} refers to tetrahedron {tet}, but there are only {}",
                     mesh.tets.len()
                 ));
             };
@@ -77,7 +76,7 @@ impl Asset {
             let is = |face: &[usize; 3]| face.iter().all(|&i| triangle.contains(&behind[i]));
             if !faces.any(|(face, &neighbour)| neighbour == NO_NEIGHBOUR && is(face)) {
                 return Err(format!(
-                    "surface triangle {t} is no outer face of tetrahedron {tet}, which it names"
+                    "surface triangle {t} is not an outer face of its tetrahedron {tet}"
                 ));
             }
         }
@@ -126,14 +125,14 @@ impl Asset {
         one_each("stress bound", stress, "gradient bound", gradient)?;
         if modes == 0 || stress % modes != 0 {
             return Err(format!(
-                "{stress} stress bounds are no whole rows of {modes} modes"
+                "{stress} stress bounds are not a whole number of rows of {modes} modes"
             ));
         }
         let clusters = stress / modes;
         all(
             &bounds.cluster_of_tet,
             |&c| (c as usize) < clusters,
-            |e| format!("tetrahedron {e} is in a cluster that is not there, of {clusters}"),
+            |e| format!("tetrahedron {e} is in a cluster beyond the {clusters} that exist"),
         )?;
         for rows in [&bounds.stress, &bounds.gradient] {
             all(
@@ -175,12 +174,12 @@ impl Asset {
         all(
             supported,
             |&v| (v as usize) < nodes,
-            |i| format!("supported node {i} lies beyond the {nodes} nodes there are"),
+            |i| format!("supported node {i} lies beyond the {nodes} nodes that exist"),
         )?;
         let rising = supported.is_sorted_by(|a, b| a < b);
         rising
             .then_some(())
-            .ok_or_else(|| "the supported nodes do not rise from one to the next".into())
+            .ok_or_else(|| "the supported nodes are not in ascending order".into())
     }
 }
 

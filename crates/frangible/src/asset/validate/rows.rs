@@ -33,7 +33,7 @@ pub(super) fn below<const N: usize>(
     all(
         rows,
         |row| row.iter().all(|&v| (v as usize) < limit),
-        |i| format!("{what} {i} names a {named} beyond the {limit} there are"),
+        |i| format!("{what} {i} refers to a {named} beyond the {limit} that exist"),
     )
 }
 
@@ -42,7 +42,7 @@ pub(super) fn one_each(of: &str, wanted: usize, what: &str, found: usize) -> Che
         return Ok(());
     }
     Err(format!(
-        "it wants one {what} per {of}: {wanted}, not {found}"
+        "it needs one {what} per {of}: {wanted}, not {found}"
     ))
 }
 

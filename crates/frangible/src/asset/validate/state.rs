@@ -1,11 +1,11 @@
-//! Checks that the cracks that a body is to remember can be its own.
+//! Checks that the cracks in a saved state can belong to a body.
 
 use crate::asset::Asset;
 use crate::error::InputError;
 use crate::state::{BodyState, OldCut};
 
 impl BodyState {
-    /// Checks that it can be the state of a body of this asset.
+    /// Checks that the state can belong to a body of this asset.
     pub(crate) fn check(&self, asset: &Asset) -> Result<(), InputError> {
         let tets = asset.fracture.tets.len();
         let mut cut = vec![false; tets];
@@ -20,7 +20,7 @@ impl BodyState {
             let settled = crack.settled as usize;
             if settled > crack.cuts.len() || (settled > 0 && asset.portion.is_none()) {
                 return Err(InputError::State(
-                    "it is that of a piece: it belongs to another body",
+                    "it is the state of a piece and belongs to another body",
                 ));
             }
             if let Some(portion) = &asset.portion {
@@ -28,7 +28,7 @@ impl BodyState {
                 let known = |c: &&OldCut| (c.tet as usize) < tets;
                 if !crack.cuts.iter().filter(known).all(own) {
                     return Err(InputError::State(
-                        "it cuts tetrahedra of other pieces: it belongs to another body",
+                        "it cuts tetrahedra of other pieces, so it belongs to another body",
                     ));
                 }
             }
@@ -36,7 +36,7 @@ impl BodyState {
                 let there = cut.get_mut(c.tet as usize);
                 if there.is_none_or(|cut| std::mem::replace(cut, true)) {
                     return Err(InputError::State(
-                        "it cuts a tetrahedron twice, or one that the body does not have: it belongs to another body",
+                        "it cuts a tetrahedron twice, or one that the body does not have, so it belongs to another body",
                     ));
                 }
                 if !(c.values.iter().all(|x| x.is_finite()) && c.direction.is_finite()) {
@@ -49,7 +49,7 @@ impl BodyState {
                 .any(|&(from, _)| from as usize >= crack.cuts.len())
             {
                 return Err(InputError::State(
-                    "a junction names a cut that is not there",
+                    "a junction refers to a cut that does not exist",
                 ));
             }
         }

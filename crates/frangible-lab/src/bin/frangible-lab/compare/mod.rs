@@ -130,11 +130,11 @@ fn compared(
         bar.show(&format!("{}: {}", scene.name, p.stage), p.fraction);
     })?;
     let found = first_break(scene, &baked, &mut |share| {
-        bar.show(&format!("{}: up to the first break", scene.name), share);
+        bar.show(&format!("{}: simulating up to the first break", scene.name), share);
     })?;
     let found = found.ok_or_else(|| {
         format!(
-            "no impact breaks anything in the scene `{}`, seed {}; choose another seed (--seed), or a harder blow",
+            "no impact breaks a body in the scene `{}` with seed {}; choose another seed (--seed) or a harder blow",
             scene.name, scene.seed
         )
     })?;
