@@ -65,7 +65,7 @@ impl Kind {
             (Made::Whole(kind), seed) => Ok(kind.body(seed.unwrap_or(1))),
             (Made::Piece(body), None) => Ok((**body).clone()),
             (Made::Piece(_), Some(_)) => Err(refused(
-                "a piece has the seed of the body that it comes from; give none",
+                "a piece uses the seed of the body that it comes from; do not give a seed",
             )),
         }
     }
@@ -89,7 +89,7 @@ impl Kind {
         match &self.0 {
             Made::Whole(kind) => Ok(kind),
             Made::Piece(_) => Err(refused(format!(
-                "a piece {asked}; keep the body that it comes from, the blow and the seed"
+                "a piece {asked}; use the body that it comes from, with the blow and the seed"
             ))),
         }
     }
@@ -113,7 +113,7 @@ impl Kind {
     }
 
     fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        let kind = self.whole("has no file of its own")?;
+        let kind = self.whole("cannot be saved or pickled")?;
         Ok(PyBytes::new(py, &kind.asset().to_bytes()))
     }
 
@@ -140,7 +140,7 @@ impl Kind {
 
     /// Displacement of each vertex in a mode of unit modal mass, 1/√kg.
     fn mode<'py>(&self, py: Python<'py>, number: usize) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let asset = self.whole("shows no modes")?.asset();
+        let asset = self.whole("has no accessible modes")?.asset();
         let field = py.detach(|| mode_on_fracture_mesh(asset, number));
         Ok(numbers(
             py,
@@ -156,7 +156,7 @@ impl Kind {
 
     /// Strength, toughness and weak points of each tetrahedron, as factors on its material's numbers; none where all are 1.
     fn factors<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let of_tet = &self.whole("does not tell its weakness")?.fields().of_tet;
+        let of_tet = &self.whole("has no factors of its own")?.fields().of_tet;
         let rows = of_tet
             .iter()
             .flat_map(|f| [f.strength, f.toughness, f.weak_points]);
@@ -180,7 +180,7 @@ impl Kind {
 
     /// Weibull modulus, volume of the specimen, m³, and exponent, rate, Pa/s, and increase of static fatigue, if its strength falls with time.
     fn scatter(&self) -> PyResult<(f64, f64, Option<[f64; 3]>)> {
-        let fields = self.whole("does not tell its scatter")?.fields();
+        let fields = self.whole("has no scatter of its own")?.fields();
         let fatigue = fields.fatigue.map(|f| [f.exponent, f.rate, f.increase]);
         Ok((fields.weibull_modulus, fields.specimen, fatigue))
     }
@@ -194,7 +194,7 @@ impl Kind {
         fatigue: Option<[f64; 3]>,
     ) -> PyResult<Self> {
         let kind = self
-            .whole("has the scatter of the body that it comes from")?
+            .whole("uses the scatter of the body that it comes from")?
             .clone();
         let mut fields = Fields::clone(kind.fields());
         (fields.weibull_modulus, fields.specimen) = (weibull_modulus, specimen);

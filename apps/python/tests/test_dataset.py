@@ -198,7 +198,7 @@ def test_a_full_disk_is_named_and_the_same_call_goes_on(meshes, tmp_path) -> Non
     run = subprocess.run(["sh", "-c", limited], capture_output=True, text=True, check=False)
     assert run.returncode == 1, run.stderr
     message = run.stderr.strip().splitlines()
-    assert len(message) == 1 and "the same call goes on" in message[0] and str(full) in message[0], run.stderr
+    assert len(message) == 1 and "the same call continues" in message[0] and str(full) in message[0], run.stderr
     assert not list(full.glob("breaking_bad/*/*/*")) and not list(full.glob("meta/*/*/*.json"))
     subprocess.run(words, check=True, capture_output=True)
     subprocess.run(words_of(meshes, one), check=True, capture_output=True)
@@ -342,9 +342,9 @@ def test_plans_that_mean_nothing_are_refused(change, words) -> None:
 
 def test_meshes_of_one_name_are_refused(meshes, tmp_path) -> None:
     twin = write_obj(tmp_path / "tile.obj", (1, 1, 1))
-    with pytest.raises(ValueError, match="one name"):
+    with pytest.raises(ValueError, match="the same name"):
         dataset.objects([meshes[0], twin], PLAN)
-    with pytest.raises(ValueError, match="no file"):
+    with pytest.raises(ValueError, match="not a file"):
         dataset.objects([tmp_path / "nothing.obj"], PLAN)
     with pytest.raises(ValueError, match="shard"):
         dataset.objects(meshes, PLAN, (2, 2))

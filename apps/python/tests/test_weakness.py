@@ -177,7 +177,7 @@ def test_pieces_keep_the_weakness(bar: fr.Body) -> None:
         ({"weak_points": -1}, "weak_points is -1 at vertex 0 .* from 0"),
         ({"strength": [0.5, 0.5]}, r"strength has the shape \(2,\); .*one for each vertex"),
         ({"strength": "strong"}, "strength is 'strong'"),
-        ({"strength": lambda places: places}, r"what strength returned has the shape .* one for each place"),
+        ({"strength": lambda places: places}, r"the result of strength has the shape .* one for each place"),
         ({"strength": lambda places: places[:, 0]}, r"strength is -0\.\d+ at place \d+"),
         ({"strength": 1e-30}, "strength and toughness must be finite and above 0"),
     ],
@@ -200,11 +200,11 @@ def test_pickles_keep_the_scatter_and_files_refuse_it(bar: fr.Body, blow: fr.Con
     kept = pickle.loads(pickle.dumps(other))
     assert other.margin(blow) == kept.margin(blow) != bar.margin(blow)
     assert other._kind.scatter() == kept._kind.scatter() == (5, 1e-6, [20, 1e6, 1.3])
-    with pytest.raises(ValueError, match="save the body before it has another one"):
+    with pytest.raises(ValueError, match="save the body before its scatter is changed"):
         other.save(tmp_path / "other.frangible")
     assert not list(tmp_path.iterdir())
     bar.scattered().save(tmp_path / "bar.frangible")
-    with pytest.raises(ValueError, match="a piece does not tell its scatter"):
+    with pytest.raises(ValueError, match="a piece has no scatter of its own"):
         bar.impact(pushed(1.0)).piece(0).scattered(weibull_modulus=5)
 
 

@@ -1,7 +1,7 @@
-"""Bodies that break for physical reasons: where and as hard as they are hit.
+"""Physically based brittle fracture: bodies break where they are hit, and as hard as they are hit.
 
-A blow makes a body vibrate, the stress wave starts cracks at weak points, and cracks run until their energy is spent (after Glondu,
-Marchal and Dumont, *Real-Time Simulation of Brittle Fracture Using Modal Analysis*, IEEE TVCG 2012, and beyond it).
+A blow makes a body vibrate, the stress wave starts cracks at weak points, and the cracks run until their energy is spent. The model extends
+Glondu, Marchal and Dumont, *Real-Time Simulation of Brittle Fracture Using Modal Analysis*, IEEE TVCG 2012.
 
     >>> import frangible as fr
     >>> plate = fr.bake(*fr.box(0.2, 0.2, 0.008), material="glass", tetrahedra=12000)
@@ -10,8 +10,8 @@ Marchal and Dumont, *Real-Time Simulation of Brittle Fracture Using Modal Analys
     >>> outcome.broke, abs(sum(f.mass for f in outcome.fragments) / plate.mass - 1) < 1e-6
     (True, True)
 
-Everything is in SI units and float64. The same input gives the same bits. A value that cannot be used is a ``ValueError`` that names it.
-Datasets are made by ``frangible.dataset``.
+All quantities are float64 in SI units. The same input gives bit-identical results. An invalid value raises a ``ValueError`` that names it.
+The module ``frangible.dataset`` makes datasets.
 """
 
 from importlib import import_module
@@ -45,7 +45,7 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
-    """Datasets are imported where they are asked for: what they need takes longer to import than all the rest."""
+    """Imports ``dataset`` on first use, because its dependencies take longer to import than everything else."""
     if name == "dataset":
         return import_module(".dataset", __name__)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

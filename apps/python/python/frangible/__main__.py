@@ -1,4 +1,4 @@
-"""The command line: ``frangible break bunny.obj``, ``frangible dataset …``. This one has no window."""
+"""The command line: ``frangible break bunny.obj``, ``frangible dataset …``. This build has no viewer."""
 
 import signal
 import sys
@@ -7,12 +7,12 @@ from ._frangible import run
 
 
 def main() -> int:
-    """Does what the words of the command line say."""
+    """Runs the command line and returns its exit status."""
     if sys.argv[1:2] == ["dataset"]:
         from .dataset import main as dataset
 
         return dataset(sys.argv[2:])
-    # Ctrl-C ends the program at once, as it does any other.
+    # Ctrl-C ends the program at once.
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     return run(["frangible", *sys.argv[1:]])
 

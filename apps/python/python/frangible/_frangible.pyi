@@ -1,4 +1,4 @@
-"""The compiled part; what it is for is in the modules beside it."""
+"""The compiled extension module. The Python modules beside it are the public interface."""
 
 from collections.abc import Callable
 from typing import Any

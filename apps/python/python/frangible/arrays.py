@@ -1,4 +1,4 @@
-"""What is given, checked and as arrays."""
+"""Validates arguments and converts them to arrays."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ Ints = NDArray[np.int32]
 
 
 def shown(value: object) -> str:
-    """What was given, in one line and not at length."""
+    """Returns the value as one line of at most 80 characters."""
     text = " ".join(repr(value).split())
     return text if len(text) <= 80 else f"{text[:77]}..."
 
 
 def vector(value: ArrayLike, name: str, count: int = 3) -> Floats:
-    """Three finite numbers, or as many as asked for."""
+    """Returns a vector of ``count`` finite numbers."""
     try:
         array = np.asarray(value, dtype=np.float64)
     except (TypeError, ValueError, OverflowError) as error:
@@ -30,7 +30,7 @@ def vector(value: ArrayLike, name: str, count: int = 3) -> Floats:
 
 
 def number(value: float, name: str, least: float = 0.0, *, above: bool = False, infinite: bool = False) -> float:
-    """A number within bounds."""
+    """Returns a number, checked against its bounds."""
     try:
         given = float(value)
     except OverflowError as error:
@@ -42,7 +42,7 @@ def number(value: float, name: str, least: float = 0.0, *, above: bool = False, 
 
 
 def rotation(value: ArrayLike, name: str) -> Floats:
-    """A quaternion x, y, z, w of length 1."""
+    """Returns a quaternion x, y, z, w, normalised from a length close to 1."""
     array = vector(value, name, 4)
     length = float(np.linalg.norm(array))
     if abs(length - 1.0) > 1e-3:
@@ -51,26 +51,26 @@ def rotation(value: ArrayLike, name: str) -> Floats:
 
 
 def mesh(vertices: ArrayLike, faces: ArrayLike) -> tuple[Floats, NDArray[np.uint32]]:
-    """Vertices (n, 3) and triangles (m, 3) that name them."""
+    """Returns vertices (n, 3) and triangles (m, 3) of vertex indices."""
     try:
         places = np.ascontiguousarray(vertices, dtype=np.float64)
     except OverflowError as error:
-        raise ValueError("a vertex has a number that is too large; every coordinate must be a finite number") from error
+        raise ValueError("a vertex coordinate is too large; every coordinate must be a finite number") from error
     if places.ndim != 2 or places.shape[1] != 3 or len(places) == 0:
-        raise ValueError(f"the vertices have the shape {places.shape}; give (n, 3)")
+        raise ValueError(f"the vertices have shape {places.shape}; give shape (n, 3)")
     if not np.isfinite(places).all():
         row = int(np.flatnonzero(~np.isfinite(places).all(axis=1))[0])
         raise ValueError(f"vertex {row} is {places[row]}; every coordinate must be a finite number")
     corners = np.asarray(faces)
     if corners.ndim != 2 or corners.shape[1] != 3 or corners.dtype.kind not in "iu":
-        raise ValueError(f"the faces are {corners.dtype} of the shape {corners.shape}; give whole numbers (m, 3)")
+        raise ValueError(f"the faces have dtype {corners.dtype} and shape {corners.shape}; give whole numbers of shape (m, 3)")
     if len(corners) and (corners.min() < 0 or corners.max() >= len(places)):
-        raise ValueError(f"the faces name vertices {corners.min()} to {corners.max()}; there are 0 to {len(places) - 1}")
+        raise ValueError(f"the faces refer to vertices {corners.min()} to {corners.max()}; the valid range is 0 to {len(places) - 1}")
     return places, np.ascontiguousarray(corners, dtype=np.uint32)
 
 
 def seed_of(seed: int) -> int:
-    """A whole number of 64 bits."""
+    """Returns a seed, checked to be a whole number of 64 bits."""
     given = int(seed)
     if given != seed or not 0 <= given < 2**64:
         raise ValueError(f"the seed is {seed!r}; give a whole number from 0 to 2**64 - 1")
@@ -78,10 +78,10 @@ def seed_of(seed: int) -> int:
 
 
 def rows(array: Floats, columns: int) -> Floats:
-    """A flat array as rows."""
+    """Returns a flat array as rows."""
     return array.reshape(-1, columns)
 
 
 def strings(value: str | Sequence[str]) -> list[str]:
-    """One text or several."""
+    """Returns one string or several as a list."""
     return [value] if isinstance(value, str) else [str(text) for text in value]

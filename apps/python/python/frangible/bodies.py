@@ -1,4 +1,4 @@
-"""Bodies: what a bake makes of a mesh and a material."""
+"""Bodies: baking a mesh with a material, and breaking the result."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ Contacts = Contact | Iterable[Contact]
 
 @dataclass(frozen=True)
 class Fatigue:
-    """How strength falls with the time that a load lasts: flaws of glass and ceramics grow slowly in air.
+    """Static fatigue: the strength of glass and ceramics falls with the duration of a load, because flaws grow slowly in air.
 
     Attributes:
-        exponent: n of the law of slow crack growth, above 2: glass 16, porcelain 20 to 40.
-        rate: At which the stress rose in the slow test, Pa/s.
-        increase: Inert strength, which is the material's, over that of the slow test, above 1.
+        exponent: Exponent n of the law of slow crack growth, above 2: glass 16, porcelain 20 to 40.
+        rate: Stress rate of the slow strength test, Pa/s.
+        increase: Inert strength, which is the strength of the material, over the strength in the slow test; above 1.
     """
 
     exponent: float
@@ -40,23 +40,23 @@ class Fatigue:
 class Body:
     """A kind of body that can be broken: its mesh of tetrahedra, its vibration modes and its material.
 
-    It does not change: each blow meets it whole, with the weak points of the seed given.
+    A body is immutable: every blow acts on the intact body, with weak points drawn from the given seed.
 
     Attributes:
-        name: Its name.
+        name: Name of the body.
         material: Name of its material.
         strength: Tensile strength of its material, Pa.
-        supported: Whether something holds it.
-        mass: kg.
-        volume: m³.
+        supported: True if part of it is fixed by supports.
+        mass: Mass, kg.
+        volume: Volume, m³.
         center: (3,) centre of mass, m: the origin of the body's frame.
-        inertia: (3, 3) about it, kg·m².
-        vertices: (n, 3) nodes of its tetrahedra, m, in the body's frame; of a piece those of its surface.
-        faces: (m, 3) int32, its surface.
-        tetrahedra: How many it has.
-        frequencies: (k,) of its vibration modes, Hz, rising.
-        scale: Factor of the lengths of the mesh that it was baked from.
-        offset: (3,) m: a place p of that mesh is at ``scale * p + offset``.
+        inertia: (3, 3) inertia tensor about the centre of mass, kg·m².
+        vertices: (n, 3) nodes of the tetrahedra, m, in the body's frame; for a piece, the vertices of its surface.
+        faces: (m, 3) int32 triangles of the surface.
+        tetrahedra: Number of tetrahedra.
+        frequencies: (k,) frequencies of the vibration modes in ascending order, Hz.
+        scale: Scale factor from the mesh from which it was baked to the body.
+        offset: (3,) offset, m: a point p of that mesh is at ``scale * p + offset`` in the body's frame.
     """
 
     def __init__(self, kind: _frangible.Kind, scale: float = 1.0, offset: ArrayLike = (0.0, 0.0, 0.0)) -> None:
@@ -85,14 +85,15 @@ class Body:
 
     @property
     def modes(self) -> Floats:
-        """(k, n, 3) displacement of each vertex in each mode of unit modal mass, 1/√kg."""
+        """Mass-normalised mode shapes: (k, n, 3) displacement of each vertex in each mode, 1/√kg."""
         return np.stack([rows(self._kind.mode(i), 3) for i in range(len(self.frequencies))])
 
     def weakened(self, strength: Factor | None = None, toughness: Factor | None = None, weak_points: Factor | None = None) -> Body:
-        """This body, weaker in some places, or stronger: with factors on its material's numbers.
+        """Returns this body with locally varying strength, toughness or density of weak points.
 
-        Each factor is a number, or an array (n,) with one for each of ``vertices``, or a function. An array's tetrahedron has the mean of its
-        four vertices. A function is given the middles of all tetrahedra, (t, 3), m, in the body's frame, and returns (t,).
+        Each argument is a factor on the material's value: a number, an array (n,) with one factor for each of ``vertices``, or a function. With
+        an array, each tetrahedron gets the mean of its four vertices. A function receives the centroids of all tetrahedra, (t, 3), m, in the
+        body's frame, and returns an array (t,).
 
             >>> import frangible as fr
             >>> bar = fr.bake(*fr.box(0.3, 0.03, 0.03), material="porcelain", tetrahedra=4000, modes=40)
@@ -101,16 +102,16 @@ class Body:
             >>> weak.minimum_speed(blow) < bar.minimum_speed(blow)
             True
 
-        All that is asked of the new body minds its weakness: blows, worlds, its pieces and its pickles. A ``.frangible`` file has no place for
-        it. A body that is weakened again has the product of the factors.
+        Blows, worlds, pieces and pickles of the new body use the factors; a ``.frangible`` file cannot store them. If a weakened body is weakened
+        again, the factors multiply.
 
         Args:
-            strength: On the tensile strength, above 0.
-            toughness: On the fracture energy, above 0. By default the square of the strength's, as of flaws of the same size.
-            weak_points: On the density of weak points, from 0; where it is 0 no crack starts.
+            strength: Factor on the tensile strength, above 0.
+            toughness: Factor on the fracture energy, above 0. Default: the square of the strength factor, which leaves the flaw size unchanged.
+            weak_points: Factor on the density of weak points, from 0; where it is 0, no crack starts.
 
         Raises:
-            ValueError: A factor out of these bounds or not one for each, or a piece, which keeps the weakness of its body.
+            ValueError: A factor is out of bounds or has the wrong shape, or the body is a piece, which keeps the factors of its parent body.
         """
         tets = self._kind.tets().reshape(-1, 4)
 
@@ -126,21 +127,21 @@ class Body:
         return Body(self._kind.with_factors(factors.ravel()), self.scale, self.offset)
 
     def scattered(self, weibull_modulus: float | None = None, specimen: float | None = None, fatigue: Fatigue | None = None) -> Body:
-        """This body with another scatter of its strength; what is not given stays. A bake gives it its material's.
+        """Returns this body with another scatter of strength. Omitted arguments keep their values, which a bake takes from the material.
 
             >>> import frangible as fr
             >>> pane = fr.bake(*fr.box(0.2, 0.2, 0.008), material="glass", tetrahedra=4000, modes=40)
             >>> even = pane.scattered(weibull_modulus=50)
 
-        As after :meth:`weakened`, a ``.frangible`` file has no place for it.
+        A ``.frangible`` file cannot store the scatter, just as with :meth:`weakened`.
 
         Args:
-            weibull_modulus: From 1: glass 7, brick 6, fine ceramics 10 to 20; lower scatters more. 0: every weak point is as strong.
-            specimen: Volume of the specimens whose strength is the material's, m³: of bodies that scatter those that are larger are weaker.
-            fatigue: How the strength falls with the time that a load lasts.
+            weibull_modulus: Weibull modulus, from 1: glass 7, brick 6, fine ceramics 10 to 20; a lower value means more scatter. 0 means none.
+            specimen: Volume of the test specimens that have the strength of the material, m³; with scatter, larger bodies are weaker.
+            fatigue: Static fatigue: the decrease of strength with the duration of a load.
 
         Raises:
-            ValueError: A number that cannot be used, or a piece, which keeps the scatter of its body.
+            ValueError: A number is invalid, or the body is a piece, which keeps the scatter of its parent body.
         """
         modulus, volume, tired = self._kind.scatter()
         if weibull_modulus is not None:
@@ -152,71 +153,71 @@ class Body:
         return Body(self._kind.with_scatter(modulus, volume, tired), self.scale, self.offset)
 
     def impact(self, contacts: Contacts, seed: int | None = None, least_share: float | None = None) -> Outcome:
-        """What a blow does to a whole body.
+        """Computes the outcome of a blow on the intact body.
 
         Args:
             contacts: All contacts of the blow, in the body's frame.
-            seed: Draws the weak points and the roughness of the cracks, default 1; a piece has that of its body.
-            least_share: A piece of less than this share of the body's volume stays with its neighbour; default 2e-4.
+            seed: Random seed for the weak points and the roughness of the cracks, default 1; a piece uses the seed of its parent body.
+            least_share: Smallest volume of a piece, as a share of the body's volume; smaller pieces stay with a neighbour. Default 2e-4.
 
         Raises:
-            ValueError: A number that cannot be used.
+            ValueError: A number is invalid.
         """
         share = None if least_share is None else number(least_share, "least_share")
         return Outcome(self._kind.impact(rows_of(contacts), _seed(seed), share))
 
     def would_break(self, contacts: Contacts, seed: int | None = None) -> bool:
-        """Whether a blow breaks the body: the answer of :meth:`impact` without the pieces."""
+        """Returns True if a blow breaks the body. Faster than :meth:`impact`, because no pieces are made."""
         return self._kind.would_break(rows_of(contacts), _seed(seed))
 
     def margin(self, contacts: Contacts, seed: int | None = None) -> float:
-        """Strength over the largest stress of a blow at a weak point: above 1 no crack starts."""
+        """Returns strength over the largest stress at a weak point during a blow; above 1, no crack starts."""
         return self._kind.margin(rows_of(contacts), _seed(seed))
 
     def minimum_speed(self, contacts: Contacts, seed: int | None = None, tolerance: float = 0.01) -> float:
-        """The slowest approach at which a blow like this breaks the body.
+        """Finds the lowest approach speed at which the blow breaks the body.
 
         Args:
-            contacts: Where and by what; their speeds do not matter.
-            seed: Draws the weak points.
-            tolerance: Share of the speed to which it is found.
+            contacts: Contacts of the blow; their speeds are ignored.
+            seed: Random seed for the weak points.
+            tolerance: Relative tolerance of the speed.
 
         Returns:
-            m/s; infinite where 1000 m/s do not break it.
+            The speed, m/s; infinity if 1000 m/s do not break the body.
         """
         share = number(tolerance, "tolerance", above=True)
         return self._kind.minimum_speed(rows_of(contacts), _seed(seed), share)
 
     def stress(self, contacts: Contacts, time: float | None = None, seed: int | None = None) -> tuple[Floats, Floats]:
-        """The stress on the surface after a blow, as if nothing cracked.
+        """Computes the stress on the surface during a blow without cracks.
 
         Args:
             contacts: The blow.
-            time: After its begin, s: the time step nearest to it. By default all of them.
-            seed: Draws the weak points, which say how deep a flaw is.
+            time: Time since the start of the blow, s; the nearest time step is returned. Default: all time steps.
+            seed: Random seed for the weak points, which set the flaw depths.
 
         Returns:
-            Times (t,), s, and the largest principal tension (t, m) on each face at each of them, Pa; NaN where no flaw is.
+            Times (t,), s, and the largest principal tensile stress (t, m) on each face at these times, Pa; NaN where there is no flaw.
         """
         wanted = None if time is None else number(time, "time")
         times, tensions = self._kind.stress(rows_of(contacts), _seed(seed), wanted)
         return times, tensions.reshape(len(times), -1)
 
     def to_bytes(self) -> bytes:
-        """Its ``.frangible`` file.
+        """Returns the contents of a ``.frangible`` file of the body.
 
         Raises:
-            ValueError: A piece or a weakened body, or one with another scatter than its material's, which have none.
+            ValueError: The body is a piece, is weakened, or has another scatter than its material; such bodies cannot be stored in a file.
         """
         data = self._kind.to_bytes()
         if self._kind.factors().size:
-            raise ValueError("a file holds no weakness; save the body before it is weakened, or pickle this one")
+            raise ValueError("a .frangible file cannot store weakness; save the body before it is weakened, or pickle this one")
         if self._kind.scatter() != _frangible.Kind.of_bytes(data).scatter():
-            raise ValueError("a file holds no scatter; save the body before it has another one, or pickle this one")
+            raise ValueError("a .frangible file cannot store scatter; save the body before its scatter is changed, or pickle this one")
         return data
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes its ``.frangible`` file: whole, or not at all."""
+        """Writes a ``.frangible`` file of the body. The write is atomic."""
         data = self.to_bytes()
         part = f"{os.fspath(path)}.part"
         with open(part, "wb") as file:
@@ -238,26 +239,26 @@ def bake(
     seed: int = 1,
     progress: Callable[[str, float], object] | None = None,
 ) -> Body:
-    """Makes a mesh breakable. It takes seconds, and Ctrl-C ends it.
+    """Bakes a mesh into a body that can break. Takes seconds and can be interrupted with Ctrl-C.
 
     Args:
-        vertices: (n, 3), or a mesh file (OBJ, STL, PLY, glTF, GLB), or anything with ``vertices`` and ``faces``, such as a
+        vertices: Array (n, 3), or the path of a mesh file (OBJ, STL, PLY, glTF, GLB), or an object with ``vertices`` and ``faces``, such as a
             ``trimesh.Trimesh``.
-        faces: (m, 3) whole numbers. Splits, doubles, turned faces and holes are mended.
-        material: A named material: ``glass`` (handled, as most is; ``glass-new``, ``glass-abraded``), ``porcelain``, ``brick``, ``concrete``,
+        faces: Array (m, 3) of vertex indices. Split or duplicate vertices, duplicate or inverted faces, and holes are repaired.
+        material: Name of a material: ``glass`` (with handling damage; also ``glass-new``, ``glass-abraded``), ``porcelain``, ``brick``, ``concrete``,
             ``chocolate`` …
-        name: The body's name.
-        size: Longest side, m. By default the mesh's unit is the metre.
-        wall: Thickness, m, of a wall along the mesh, instead of what it encloses.
-        tetrahedra: How many there are for cracks, about. More are finer and slower. By default 42 000; 1500 are enough for games.
-        modes: Vibration modes that are kept.
-        supports: What holds it, in the mesh's frame after ``size``: ``"below:z:0.01"``, ``"box:0,0,0,0.1,0.1,0.1"``,
-            ``"sphere:0,0,0,0.02"``; ``"@xy"`` after one holds it along x and y only.
-        seed: Draws the irregularity of the tetrahedra.
-        progress: Told the stage and its share that is done, meanwhile. What it raises ends the bake.
+        name: Name of the body.
+        size: Length of the longest side, m. Default: the mesh is in metres.
+        wall: Make a wall of this thickness, m, along the mesh instead of a solid body.
+        tetrahedra: Approximate number of tetrahedra of the fracture mesh. More are finer and slower. Default 42 000; 1500 suffice for games.
+        modes: Number of vibration modes to keep.
+        supports: Regions in which the body is fixed, in the mesh's frame after scaling to ``size``: ``"below:z:0.01"``, ``"box:0,0,0,0.1,0.1,0.1"``,
+            ``"sphere:0,0,0,0.02"``; append ``"@xy"`` to fix x and y only.
+        seed: Random seed for the irregularity of the tetrahedra.
+        progress: Called with the name of the current stage and its completed share; an exception from it cancels the bake.
 
     Raises:
-        ValueError: A mesh that cannot be meant as a solid, or a number that cannot be used.
+        ValueError: The mesh does not describe a solid, or a number is invalid.
     """
     places, corners = mesh(*_both(vertices, faces))
     for what, value in (("size", size), ("wall", wall)):
@@ -273,7 +274,7 @@ def bake(
 
 
 def _both(vertices: Any, faces: ArrayLike | None) -> tuple[ArrayLike, ArrayLike]:
-    """Vertices and faces of arrays, a file, or a mesh that has both."""
+    """Returns vertices and faces from arrays, a file, or an object that has both."""
     if faces is not None:
         return vertices, faces
     if isinstance(vertices, str | os.PathLike):
@@ -281,30 +282,30 @@ def _both(vertices: Any, faces: ArrayLike | None) -> tuple[ArrayLike, ArrayLike]
     try:
         return vertices.vertices, vertices.faces
     except AttributeError as error:
-        raise ValueError("the faces are missing; give vertices and faces, a mesh file, or a mesh that has both") from error
+        raise ValueError("the faces are missing; give vertices and faces, a mesh file, or an object that has both") from error
 
 
 def load(path: str | os.PathLike[str]) -> Body:
     """Reads a baked body, a ``.frangible`` file.
 
     Raises:
-        ValueError: No such file, or one that is none, is cut short, damaged or of another version.
+        ValueError: The file does not exist, is not a baked body, is truncated or damaged, or has another format version.
     """
     return Body(_frangible.Kind.load(os.fspath(path)))
 
 
 def read_mesh(path: str | os.PathLike[str]) -> tuple[Floats, Ints]:
-    """Vertices (n, 3), in the file's unit, and faces (m, 3) of a mesh file: OBJ, STL, PLY, glTF or GLB.
+    """Reads the vertices (n, 3), in the file's unit, and the faces (m, 3) of a mesh file: OBJ, STL, PLY, glTF or GLB.
 
     Raises:
-        ValueError: A file that cannot be read, with the reason.
+        ValueError: The file cannot be read; the message gives the reason.
     """
     places, corners = _frangible.read_mesh(os.fspath(path))
     return rows(places, 3), corners.reshape(-1, 3).astype(np.int32)
 
 
 def box(x: float, y: float, z: float) -> tuple[Floats, Ints]:
-    """Vertices and faces of a box about the origin, sides in m."""
+    """Returns the vertices and faces of a box centred on the origin, with sides in m."""
     sides = np.array([number(side, name, above=True) for side, name in ((x, "x"), (y, "y"), (z, "z"))])
     corners = np.array([[i & 1, i >> 1 & 1, i >> 2] for i in range(8)]) - 0.5
     quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]]

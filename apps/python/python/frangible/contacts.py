@@ -1,4 +1,4 @@
-"""What hits a body, and where."""
+"""Contacts: strikers, and where they hit a body."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from .arrays import Floats, number, shown, vector
 
 @dataclass(frozen=True)
 class Striker:
-    """What hits the body: a floor that does not give way, unless it has a mass.
+    """The object that hits the body. Without a mass, it is an immovable floor.
 
     Attributes:
-        material: A named material, such as ``"steel"``, ``"stone"``, ``"wood"`` or any that breaks.
-        mass: kg; infinite for what does not give way.
-        radius: Radius of curvature where it touches, m. By default that of a ball of the mass; flat without one.
-        restitution: 0 (no bounce) to 1; by default the material's.
+        material: Name of a material, such as ``"steel"``, ``"stone"`` or ``"wood"``, or a breakable one.
+        mass: Mass, kg; infinite for an immovable striker.
+        radius: Radius of curvature at the contact, m. Default: the radius of a ball with this mass; flat if the mass is infinite.
+        restitution: Coefficient of restitution, 0 (no bounce) to 1. Default: the value of the material.
     """
 
     material: str = "steel"
@@ -42,15 +42,15 @@ class Striker:
 
 @dataclass(frozen=True)
 class Contact:
-    """Where and how a body is hit.
+    """A contact of a body with a striker.
 
     Attributes:
-        point: Where, m, in the body's frame; the nearest point of the surface is taken.
-        direction: Which way the body is pushed, of any length.
-        speed: How fast the two approach along it, m/s. Impulse, force and duration are then results.
-        striker: What hits, or the name of its material: then it does not give way.
-        impulse: Instead of a speed: the impulse of a scripted push along the direction, N·s, a half-sine of the duration.
-        duration: How long the scripted push lasts, s.
+        point: Contact point, m, in the body's frame; moved to the nearest point of the surface.
+        direction: Direction in which the body is pushed, of any length.
+        speed: Approach speed along the direction, m/s. Impulse, force and duration are then results.
+        striker: The striker, or the name of a material for an immovable one.
+        impulse: Impulse of a scripted push along the direction, N·s, instead of a speed; the force is a half-sine in time.
+        duration: Duration of the scripted push, s.
     """
 
     point: ArrayLike
@@ -65,31 +65,31 @@ class Contact:
         direction = vector(self.direction, f"{name}.direction")
         length = float(np.linalg.norm(direction))
         if length == 0:
-            raise ValueError(f"{name}.direction is zero; give the way the body is pushed")
+            raise ValueError(f"{name}.direction is zero; give the direction in which the body is pushed")
         direction = direction / length
         if self.impulse is not None:
             if self.speed is not None:
-                raise ValueError(f"{name} has a speed and an impulse; give one of them: of a blow the impulse is a result")
+                raise ValueError(f"{name} has a speed and an impulse; give only one: with a speed, the impulse is a result")
             if self.duration is None:
-                raise ValueError(f"{name} has an impulse and no duration; give it, s")
+                raise ValueError(f"{name} has an impulse but no duration; give the duration in s")
             push = direction * number(self.impulse, f"{name}.impulse", above=True)
             lasting = number(self.duration, f"{name}.duration", above=True)
             return [*point, *direction, 0, 0, math.inf, math.inf, math.inf, 0, *push, lasting]
         if self.speed is None:
-            raise ValueError(f"{name} has no speed; give it, m/s, or an impulse and a duration")
+            raise ValueError(f"{name} has no speed; give a speed in m/s, or an impulse and a duration")
         if self.duration is not None:
-            raise ValueError(f"{name} has a speed and a duration; of a blow the duration is a result")
+            raise ValueError(f"{name} has a speed and a duration; omit the duration: with a speed, the duration is a result")
         speed = number(self.speed, f"{name}.speed")
         striker = Striker(self.striker) if isinstance(self.striker, str) else self.striker
         return [*point, *direction, speed, *striker._numbers(), 0, 0, 0, 0]
 
 
 def rows_of(contacts: Contact | Iterable[Contact]) -> Floats:
-    """All contacts of one impact as one flat array."""
+    """Returns all contacts of one impact as a flat array."""
     given = [contacts] if isinstance(contacts, Contact) else list(contacts)
     if not given:
-        raise ValueError("there is no contact; give at least one")
+        raise ValueError("no contact given; give at least one")
     for contact in given:
         if not isinstance(contact, Contact):
-            raise ValueError(f"{shown(contact)} is no frangible.Contact")
+            raise ValueError(f"{shown(contact)} is not a frangible.Contact")
     return np.array([c._row(f"contacts[{i}]") for i, c in enumerate(given)], dtype=np.float64).ravel()

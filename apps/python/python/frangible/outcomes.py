@@ -1,4 +1,4 @@
-"""What came of a blow."""
+"""Outcomes of blows."""
 
 from __future__ import annotations
 
@@ -20,20 +20,20 @@ _UPRIGHT = (0.0, 0.0, 0.0, 1.0)
 
 @dataclass(frozen=True, eq=False)
 class Fragment:
-    """A closed piece of a broken body, where it was in the body.
+    """A closed piece of a broken body, at its original position in the body.
 
     Attributes:
-        vertices: (n, 3) float64, m, in the body's frame.
-        faces: (m, 3) int32, counter-clockwise seen from outside.
-        neighbour: (m,) int32: of each face the fragment on its other side, by its place in ``Outcome.fragments``; -1 where the face is of
-            the body's own surface or was made by an earlier break. That fragment has the same face, turned round.
-        is_fracture_face: (m,) bool: whether each face was made by a crack, of this break or an earlier one.
-        mass: kg.
-        volume: m³.
+        vertices: (n, 3) float64 vertices, m, in the body's frame.
+        faces: (m, 3) int32 triangles, counter-clockwise seen from outside.
+        neighbour: (m,) int32: for each face, the index in ``Outcome.fragments`` of the fragment on its other side, which has the same face
+            reversed; -1 for a face of the body's own surface or of an earlier break.
+        is_fracture_face: (m,) bool: True for each face made by a crack, in this break or an earlier one.
+        mass: Mass, kg.
+        volume: Volume, m³.
         center: (3,) centre of mass, m, in the body's frame.
-        inertia: (3, 3) about the centre, kg·m², axes of the body's frame.
+        inertia: (3, 3) inertia tensor about the centre of mass, kg·m², in the axes of the body's frame.
         hulls: Convex parts for colliders: (k, 3) points each, m, in the body's frame.
-        supported: Whether something outside still holds it.
+        supported: True if the fragment is still fixed by a support.
     """
 
     vertices: Floats
@@ -48,17 +48,17 @@ class Fragment:
     supported: bool
 
     def to_trimesh(self) -> Any:
-        """A ``trimesh.Trimesh``, with ``neighbour`` among its face attributes."""
+        """Returns a ``trimesh.Trimesh`` with ``neighbour`` as a face attribute."""
         return _trimesh().Trimesh(self.vertices, self.faces, face_attributes={"neighbour": self.neighbour}, process=False)
 
 
 @dataclass(frozen=True)
 class Motion:
-    """How something moves after a break.
+    """Velocities of a body after a break.
 
     Attributes:
         linear: (3,) velocity of the centre of mass, m/s.
-        angular: (3,) rad/s.
+        angular: (3,) angular velocity, rad/s.
     """
 
     linear: Floats
@@ -66,18 +66,18 @@ class Motion:
 
 
 class Outcome:
-    """What came of a blow.
+    """The outcome of a blow.
 
     Attributes:
-        broke: Whether the body is in pieces now.
-        margin: Strength over a bound of the stress, which may be far above the stress itself: above 1 nothing happened. ``Body.margin``
-            takes longer and gives the margin itself.
-        fragments: The pieces, largest first; none if the body held. Together they tile the body.
-        report: Numbers of the blow, SI: ``peak_stress``, ``strength``, ``fracture_energy``, ``crack_area``, ``cracks``,
+        broke: True if the body broke into pieces.
+        margin: Strength over an upper bound of the stress, which may be far above the stress itself; above 1, no crack started.
+            ``Body.margin`` takes longer and gives the exact margin.
+        fragments: The pieces, largest first; empty if the body did not break. Together they tile the body.
+        report: Results in SI units: ``peak_stress``, ``strength``, ``fracture_energy``, ``crack_area``, ``cracks``,
             ``first_crack_time``, ``first_crack_point``, ``approach_energy``, ``peak_strain_energy``, ``contact_duration``, ``time_step``,
-            ``seconds``, and ``contacts``: of each ``impulse``, ``peak_force``, ``duration``, ``contact_radius``, ``departure_speed``,
-            ``crushing_energy``, ``crushed_volume`` and ``force`` at each time step. ``starts`` are the cracks in the order in which they start:
-            ``time``, s, ``point``, m, the centre of its first tetrahedron, and how many ``tetrahedra`` each cuts.
+            ``seconds``, and ``contacts``, each with ``impulse``, ``peak_force``, ``duration``, ``contact_radius``, ``departure_speed``,
+            ``crushing_energy``, ``crushed_volume`` and ``force`` at each time step. ``starts`` lists the cracks in the order in which they start, each
+            with its ``time``, s, ``point``, m, the centre of its first tetrahedron, and the number of ``tetrahedra`` that it cuts.
     """
 
     def __init__(self, impact: Impact) -> None:
@@ -100,21 +100,21 @@ class Outcome:
         angular: ArrayLike = _REST,
         striker: dict[str, Any] | None = None,
     ) -> tuple[list[Motion], Motion | None]:
-        """How the fragments move just afterwards, and the striker: momentum stays, energy does not rise.
+        """Returns the velocities of the fragments, and of the striker, just after the break. Momentum is conserved; energy does not increase.
 
         Args:
-            position: Where the body's centre of mass is in the world, m.
-            rotation_xyzw: How the body is turned, a quaternion.
-            linear: Velocity of its centre of mass just before, m/s.
-            angular: rad/s.
-            striker: ``mass`` (kg), ``position`` (m) and, if they are not zero, ``linear`` and ``angular`` of what hit it; ``inertia`` (3, 3)
-                in world axes or ``radius`` of a ball.
+            position: Position of the body's centre of mass in the world, m.
+            rotation_xyzw: Rotation of the body, a quaternion.
+            linear: Velocity of the body's centre of mass just before the blow, m/s.
+            angular: Angular velocity of the body just before the blow, rad/s.
+            striker: ``mass`` (kg) and ``position`` (m) of the striker, ``linear`` and ``angular`` velocity if not zero, and ``inertia`` (3, 3)
+                in world axes or the ``radius`` of a ball.
 
         Returns:
-            The motion of each fragment, and that of the striker if one was given.
+            The motion of each fragment, and of the striker if one was given.
 
         Raises:
-            ValueError: A number that cannot be used.
+            ValueError: A number is invalid.
         """
         pose = np.concatenate([vector(position, "position"), rotation(rotation_xyzw, "rotation_xyzw")])
         motion = np.concatenate([vector(linear, "linear"), vector(angular, "angular")])
@@ -125,20 +125,20 @@ class Outcome:
         return motions[:count], motions[count] if striker is not None and len(motions) > count else None
 
     def piece(self, number: int) -> Body:
-        """A fragment as a body that breaks again, with vibration modes of its own.
+        """Returns a fragment as a body with its own vibration modes, which can break again.
 
-        Its frame has its origin at the fragment's centre of mass: a place p in the frame of this body is at ``p - fragment.center``. It has
-        the seed of this body, its weak points and the cracks that part nothing.
+        The origin of its frame is the fragment's centre of mass: a point p in the frame of the parent body is at ``p - fragment.center``. The
+        piece keeps the seed, the weak points and the incomplete cracks of the parent body.
 
         Raises:
-            ValueError: No such fragment, or one that is too small to have modes.
+            ValueError: The fragment does not exist, or is too small for vibration modes.
         """
         from .bodies import Body
 
         return Body(self._impact.piece(number), 1.0, -self.fragments[number].center)
 
     def to_trimesh(self) -> Any:
-        """A ``trimesh.Scene`` of all fragments."""
+        """Returns a ``trimesh.Scene`` of all fragments."""
         meshes = {f"piece_{i}": fragment.to_trimesh() for i, fragment in enumerate(self.fragments)}
         return _trimesh().Scene(meshes)
 
@@ -146,7 +146,7 @@ class Outcome:
 def _striker_row(striker: dict[str, Any]) -> Floats:
     unknown = set(striker) - {"mass", "position", "linear", "angular", "inertia", "radius"}
     if unknown:
-        raise ValueError(f"the striker has {sorted(unknown)}; there are mass, position, linear, angular, inertia and radius")
+        raise ValueError(f"the striker has the unknown keys {sorted(unknown)}; the keys are mass, position, linear, angular, inertia and radius")
     mass = number(striker.get("mass", np.nan), "the striker's mass", above=True)
     if "inertia" in striker:
         inertia = vector(np.asarray(striker["inertia"], dtype=np.float64).ravel(), "the striker's inertia", 9)

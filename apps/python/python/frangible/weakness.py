@@ -1,4 +1,4 @@
-"""Weakness that varies over a body: one factor for each tetrahedron, from what a caller finds convenient."""
+"""Locally varying weakness: one factor for each tetrahedron, from a number, an array or a function."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ Factor = ArrayLike | Callable[[Floats], ArrayLike]
 
 
 def factors_of(given: Factor, name: str, vertices: Floats, tets: NDArray[np.uint32], *, zero: bool = False) -> Floats:
-    """The factor of each tetrahedron (t,): of a number, of one for each vertex (n,), or of a function of the middles (t, 3)."""
+    """Returns the factor of each tetrahedron (t,) from a number, an array of vertex factors (n,), or a function of the centroids (t, 3)."""
     if callable(given):
         places, of = vertices[tets].mean(axis=1), "place"
-        values = _numbers(given(places), f"what {name} returned", len(places), of)
+        values = _numbers(given(places), f"the result of {name}", len(places), of)
     else:
         places, of = vertices, "vertex"
         values = _numbers(given, name, len(vertices), of)
-    # The compiled part has 32 bits for each: what is too large or too small for them is said here.
+    # The compiled part stores 32 bits per factor; report here what does not fit.
     with np.errstate(over="ignore", under="ignore"):
         single = values.astype(np.float32)
     wrong = np.flatnonzero(~(np.isfinite(single) & ((single >= 0) if zero else (single > 0))))
@@ -33,11 +33,11 @@ def factors_of(given: Factor, name: str, vertices: Floats, tets: NDArray[np.uint
 
 
 def _numbers(given: ArrayLike, name: str, count: int, of: str) -> Floats:
-    """One number for each, or the same for all."""
+    """Returns one number for each item, or the same number for all."""
     try:
         values = np.asarray(given, dtype=np.float64)
     except (TypeError, ValueError, OverflowError) as error:
         raise ValueError(f"{name} is {shown(given)}; give a number, or one for each {of}") from error
     if values.shape not in ((), (count,)):
-        raise ValueError(f"{name} has the shape {values.shape}; give a number, or ({count},), one for each {of}")
+        raise ValueError(f"{name} has the shape {values.shape}; give a number, or an array of shape ({count},) with one for each {of}")
     return np.broadcast_to(values, (count,))

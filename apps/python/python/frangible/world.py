@@ -17,12 +17,12 @@ _REST = (0.0, 0.0, 0.0)
 
 @dataclass(frozen=True)
 class Thing:
-    """Something in a world.
+    """A body, piece or ball in a world.
 
     Attributes:
-        name: Its name.
+        name: Name of the thing.
         kind: ``"body"``, ``"piece"`` or ``"ball"``.
-        mass: kg.
+        mass: Mass, kg.
         position: (3,) centre of mass, m.
         rotation: (4,) quaternion x, y, z, w.
     """
@@ -35,7 +35,7 @@ class Thing:
 
 
 class World:
-    """Bodies under gravity that break where they meet, y up.
+    """A simulation of rigid bodies that break when they collide, under gravity, y up.
 
         >>> import frangible as fr
         >>> cup = fr.bake(*fr.box(0.06, 0.06, 0.1), material="porcelain", wall=0.004, tetrahedra=8000, modes=60)
@@ -46,13 +46,13 @@ class World:
         True
 
     Args:
-        floor: Material of the floor at y = 0; None for none.
-        seed: Draws all weak points.
-        generations: How often pieces break again.
-        load_duration: How long loads that rest have lasted, s: glass that holds for a second may not hold for a year.
+        floor: Material of the floor at y = 0; None for no floor.
+        seed: Random seed for all weak points.
+        generations: Maximum number of times that pieces can break again.
+        load_duration: Assumed duration of sustained loads, s; static fatigue reduces the strength of glass under long loads.
 
     Raises:
-        ValueError: A number or a name that cannot be used.
+        ValueError: A number or a name is invalid.
     """
 
     def __init__(self, floor: str | None = "stone", seed: int = 1, generations: int = 0, load_duration: float = 1.0) -> None:
@@ -72,35 +72,35 @@ class World:
         spin: ArrayLike = _REST,
         name: str | None = None,
     ) -> None:
-        """Puts a body there: centre of mass, m, rotation (x, y, z, w), m/s and rad/s. Before the first step."""
+        """Adds a body before the first step: position of its centre of mass (m), rotation (x, y, z, w), velocity (m/s) and spin (rad/s)."""
         if self._live is not None:
-            raise ValueError("the world has begun to move; add bodies before the first step")
+            raise ValueError("the simulation has already started; add bodies before the first step")
         placed = _placed(position, rotation, velocity, spin)
         self._bodies.append({"kind": body._kind, "name": name or f"{body.name} {len(self._bodies) + 1}", **placed})
 
     def throw(
         self, start: ArrayLike, through: ArrayLike, speed: float, mass: float = 0.1, radius: float = 0.015, material: str = "steel"
     ) -> None:
-        """Throws a ball from a place through another, m, at a speed, m/s; gravity is allowed for."""
+        """Throws a ball from ``start`` through ``through`` (m) at ``speed`` (m/s), compensating for gravity."""
         ends = [vector(start, "start").tolist(), vector(through, "through").tolist()]
         self._begun().throw(mass, radius, speed, material, *ends)
 
     def step(self, seconds: float = 1 / 60) -> None:
-        """Lets time pass. Steps inside are 1/240 s, and finer about a break."""
+        """Advances the simulation. Internal steps are 1/240 s, and shorter around a break."""
         self._begun().advance(number(seconds, "seconds", above=True))
 
     @property
     def time(self) -> float:
-        """s since the beginning."""
+        """Simulated time, s."""
         return self._begun().time
 
     @property
     def things(self) -> list[Thing]:
-        """What there is now."""
+        """All bodies, pieces and balls in the world, in their current state."""
         return [Thing(*thing) for thing in self._begun().things()]
 
     def export(self, path: str | os.PathLike[str], rate: float = 60.0, look_from: ArrayLike = (0.55, 0.5, 1.0)) -> None:
-        """Writes what happened so far as a GLB with an animation of so many pictures a second."""
+        """Writes the simulation so far as an animated GLB with ``rate`` frames per second."""
         view = vector(look_from, "look_from").tolist()
         self._begun().export(os.fspath(path), number(rate, "rate", above=True), view)
 

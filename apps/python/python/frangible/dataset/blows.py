@@ -1,4 +1,4 @@
-"""Drops and blows that break a body into as many pieces as are wanted."""
+"""Drops and blows that break a body into an allowed number of pieces."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ STEP = 1.6
 
 
 def broken(body: Body, plan: Plan, name: str, k: int) -> tuple[Outcome, dict[str, Any]]:
-    """A blow that breaks the body into as many pieces as wanted, and what it was."""
+    """Returns a blow that breaks the body into an allowed number of pieces, and its description."""
     digest = hashlib.sha256(f"{plan.seed} {name} {k}".encode()).digest()
     rng = np.random.default_rng(list(digest))
     contact, words = _drop(body, rng) if rng.random() < 0.5 else _blow(body, rng)
@@ -58,7 +58,7 @@ def broken(body: Body, plan: Plan, name: str, k: int) -> tuple[Outcome, dict[str
         between = math.sqrt(slow * fast) if 0 < slow and fast < math.inf else speed * (STEP if count < fewest else 1 / STEP)
         contact = Contact(contact.point, contact.direction, between, contact.striker)
     raise ValueError(
-        f"{plan.tries} blows gave {tried} pieces and none {fewest} to {most} that are large enough; widen the limits or allow more tries"
+        f"{plan.tries} blows gave {tried} pieces, but none gave {fewest} to {most} sufficiently large pieces; widen the limits or allow more tries"
     )
 
 
@@ -68,7 +68,7 @@ def _between(rng: np.random.Generator, limits: tuple[float, float]) -> float:
 
 
 def _drop(body: Body, rng: np.random.Generator) -> tuple[Contact, dict[str, Any]]:
-    """A fall onto stone, with any side down."""
+    """Returns a fall onto stone in a random orientation."""
     down = rng.normal(size=3)
     down /= np.linalg.norm(down)
     point = body.vertices[np.argmax(body.vertices @ down)]
@@ -78,7 +78,7 @@ def _drop(body: Body, rng: np.random.Generator) -> tuple[Contact, dict[str, Any]
 
 
 def _blow(body: Body, rng: np.random.Generator) -> tuple[Contact, dict[str, Any]]:
-    """A steel ball straight onto any place of the surface."""
+    """Returns a blow of a steel ball, normal to the surface at a random point."""
     corners = body.vertices[body.faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     areas = np.linalg.norm(normals, axis=1)

@@ -1,4 +1,4 @@
-"""A dataset on a Ray cluster: a task for each object. What a machine had begun when it was lost is done by another one."""
+"""Makes a dataset on a Ray cluster, with one task per object. Tasks of a lost machine are run again on another one."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ RETRIES = 3
 
 
 def each_object(todo: list[Object], out: Path, plan: Plan) -> Iterator[Row | None]:
-    """Rows as they come, None for what is there. It joins the cluster that ``ray.init`` finds, or starts one on this machine."""
+    """Yields rows as they are completed, None for an existing break. Joins the cluster that ``ray.init`` finds, or starts one on this machine."""
     try:
         ray: Any = import_module("ray")
     except ImportError as error:
@@ -42,7 +42,7 @@ def each_object(todo: list[Object], out: Path, plan: Plan) -> Iterator[Row | Non
 
 
 def _lost(one: Object, out: Path, plan: Plan, error: Exception) -> Iterator[Row | None]:
-    """Rows of an object whose task died each time it was tried: what was made before is there."""
+    """Yields the rows of an object whose task died at every attempt, None for the breaks that were made before."""
     mesh, material, name = one
     row = {"category": plan.category, "object": name, "mesh": mesh.name, "material": material}
     for k in range(plan.breaks):

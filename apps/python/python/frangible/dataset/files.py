@@ -1,4 +1,4 @@
-"""The folders of a dataset. Whatever has its final name is whole."""
+"""The folders of a dataset. Every file is complete once it has its final name."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def meta_of(out: Path, plan: Plan, name: str, k: int) -> Path:
 
 
 def is_there(out: Path, plan: Plan, name: str, k: int, mesh_sha256: str) -> bool:
-    """Whether a break has been made of this mesh. One of another mesh of the same name is removed."""
+    """Returns True if the break of this mesh exists. Removes a break of a different mesh of the same name."""
     meta = meta_of(out, plan, name, k).with_suffix(".json")
     if not meta.exists():
         return False
@@ -42,7 +42,7 @@ def is_there(out: Path, plan: Plan, name: str, k: int, mesh_sha256: str) -> bool
 
 
 def write_break(out: Path, plan: Plan, body: Body, outcome: Outcome, words: dict[str, Any]) -> dict[str, Any]:
-    """Writes a break, and gives back what is written about it. Each file and folder has its final name only when it is whole; the JSON comes last."""
+    """Writes a break and returns its metadata. Each file and folder gets its final name only when it is complete; the JSON file comes last."""
     name, k = words["object"], words["break"]
     folder, meta = folder_of(out, plan, name, k), meta_of(out, plan, name, k)
     part = out / "parts" / f"{name}-{k}-{os.getpid()}"
@@ -78,13 +78,13 @@ def write_break(out: Path, plan: Plan, body: Body, outcome: Outcome, words: dict
         return about
     except OSError as error:
         # Of a full disk the system does not say where it is.
-        raise OSError(error.errno, f"{error.strerror}; what was made stays, and the same call goes on", error.filename or str(part)) from error
+        raise OSError(error.errno, f"{error.strerror}; completed breaks are kept, and the same call continues with the rest", error.filename or str(part)) from error
     finally:
         shutil.rmtree(part, ignore_errors=True)
 
 
 def _put(pieces: Path, folder: Path, aside: Path) -> None:
-    """Puts a folder in the place of what a run left there that ended before its JSON, or what another run puts there meanwhile."""
+    """Moves a folder to its final name, replacing one left by an interrupted run or written by a concurrent one."""
     while True:
         with suppress(FileNotFoundError):
             os.replace(folder, aside)
@@ -108,7 +108,7 @@ def _about(fragment: Fragment) -> dict[str, Any]:
 
 
 def touching(fragments: Sequence[Fragment]) -> list[dict[str, Any]]:
-    """Pairs of fragments that have faces in common, and the area, m²."""
+    """Returns the pairs of fragments that share faces, and the shared area, m²."""
     pairs: dict[tuple[int, int], float] = {}
     for i, fragment in enumerate(fragments):
         corners = fragment.vertices[fragment.faces]
@@ -119,12 +119,12 @@ def touching(fragments: Sequence[Fragment]) -> list[dict[str, Any]]:
 
 
 def keep_plan(out: Path, plan: Plan) -> None:
-    """A folder is of one plan: another one would mix two kinds of breaks under one name."""
+    """Stores the plan in the folder, and raises ``ValueError`` if the folder holds another plan, which would mix different breaks."""
     words = json.dumps(asdict(plan), indent=1, sort_keys=True)
     file = out / f"plan-{plan.category}.json"
     if file.exists():
         if file.read_text() != words:
-            raise ValueError(f"`{file}` is of another plan; give another folder or category, or the options of then")
+            raise ValueError(f"`{file}` stores another plan; give another folder or category, or the options of that plan")
         return
     out.mkdir(parents=True, exist_ok=True)
     part = file.with_suffix(f".{os.getpid()}.part")
@@ -133,22 +133,22 @@ def keep_plan(out: Path, plan: Plan) -> None:
 
 
 def breaks(out: Path, category: str) -> list[str]:
-    """Names of all breaks that are there: ``CATEGORY/OBJECT/fractured_K``."""
+    """Returns the names of all existing breaks: ``CATEGORY/OBJECT/fractured_K``."""
     there = (out / "meta" / category).glob("*/fractured_*.json")
     found = [(file.parent.name, int(file.stem.removeprefix("fractured_"))) for file in there]
     return [f"{category}/{name}/fractured_{k}" for name, k in sorted(found)]
 
 
 def split_of(name: str, val_share: float) -> str:
-    """``train`` or ``val``, by the object's name alone, so that more objects change nothing."""
+    """Returns ``train`` or ``val``. Depends only on the object's name, so adding objects does not move others."""
     share = int.from_bytes(hashlib.sha256(name.encode()).digest()[:8], "little") / 2**64
     return "val" if share < val_share else "train"
 
 
 def write_splits(out: Path, plan: Plan) -> None:
-    """Names the objects of which there are breaks, each in one split: loaders look into their folders for the breaks.
+    """Writes the lists of objects with breaks, each object in one split; loaders find the breaks in the objects' folders.
 
-    Some loaders look for the lists beside the objects, others in ``data_split``: they are in both places.
+    Some loaders expect the lists beside the objects, others in ``data_split``, so both places get them.
     """
     root = out / "breaking_bad"
     named = sorted({line.rsplit("/", 1)[0] for line in breaks(out, plan.category)})

@@ -13,7 +13,7 @@ from .files import breaks, split_of
 
 
 def write_hdf5(out: Path, path: Path) -> int:
-    """Writes all breaks of all categories that are there as one file that GARF reads; returns how many."""
+    """Writes all breaks of all categories to one HDF5 file in the format of GARF. Returns their number."""
     try:
         import h5py
     except ImportError as error:
@@ -56,7 +56,7 @@ def _hdf5_break(group: Any, meta: Path) -> None:
 
 
 def _removals(shared: list[Any]) -> tuple[Any, Any]:
-    """Which piece can be taken away after which so that the others still hang together: large ones first, the largest last."""
+    """Returns an order in which pieces can be removed so that the rest stays connected: large ones first, the largest last."""
     count = len(shared)
     beside = [{int(j) for j in np.unique(s[s >= 0])} for s in shared]
     left = set(range(count))

@@ -1,4 +1,4 @@
-"""The list of all breaks of a shard: how each was made, or why it could not be."""
+"""The list of all breaks of a shard: how each was made, or why it failed."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Row = dict[str, Any]
 class Manifest:
     """A file with a line of JSON for each break of a shard.
 
-    Lines are added as breaks are made. A run that is killed may leave half a line, or a break without one; :meth:`settle` mends both.
+    Lines are appended as breaks are made. A killed run may leave a partial line, or a break without a line; :meth:`settle` repairs both.
     """
 
     def __init__(self, out: Path, plan: Plan, shard: tuple[int, int]) -> None:
@@ -31,7 +31,7 @@ class Manifest:
             file.write(json.dumps(row, sort_keys=True) + "\n")
 
     def settle(self, names: Iterable[str]) -> None:
-        """Leaves one row for each break, the latest, and gives those of these objects that are there without a row the one they lost."""
+        """Keeps the latest row of each break, and restores missing rows of existing breaks of these objects."""
         rows = {(row["category"], row["object"], row["break"]): row for row in self._rows()}
         for name in names:
             for k in range(self.plan.breaks):
@@ -56,6 +56,6 @@ class Manifest:
 
 
 def row_of(about: Row, seconds: float | None = None) -> Row:
-    """The row of a break from what is written about it; the seconds that it took are known to the run that made it alone."""
+    """Returns the row of a break from its metadata. The time is known only in the run that made the break."""
     keys = ("category", "object", "mesh", "mesh_sha256", "material", "break", "blow", "sha256")
     return {**{key: about[key] for key in keys}, "failed": None, "seconds": seconds}

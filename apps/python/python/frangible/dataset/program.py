@@ -25,26 +25,26 @@ def _limits(text: str) -> tuple[int, int]:
 def main(words: Sequence[str]) -> int:
     """``frangible dataset``."""
     usual = Plan()
-    parser = argparse.ArgumentParser(prog="frangible dataset", description="Breaks meshes many times, for those who put pieces together again.")
+    parser = argparse.ArgumentParser(prog="frangible dataset", description="Make a dataset of broken meshes for research on reassembly.")
     parser.add_argument("meshes", nargs="+", type=Path, help="mesh files: OBJ, STL, PLY, glTF, GLB")
-    parser.add_argument("-o", "--out", type=Path, required=True, help="folder; what is there already is not made again")
-    parser.add_argument("--material", action="append", help="named material; several make several bodies of each mesh (default porcelain)")
-    parser.add_argument("--breaks", type=int, default=usual.breaks, help="of each body (default %(default)s)")
-    parser.add_argument("--category", default=usual.category, help="folder of the objects (default %(default)s)")
-    parser.add_argument("--seed", type=int, default=usual.seed, help="of all blows (default %(default)s)")
-    parser.add_argument("--size", type=float, help="longest side, m (default: the meshes' unit is the metre)")
-    parser.add_argument("--wall", type=float, help="thickness of a wall along the mesh, m (default: what it encloses)")
-    parser.add_argument("--pieces", type=_limits, default=usual.pieces, metavar="2-20", help="fewest and most pieces (default 2-20)")
-    parser.add_argument("--least-share", type=float, default=usual.least_share, help="smaller shares of the volume stay with a neighbour (default %(default)s)")
-    parser.add_argument("--tetrahedra", type=int, default=usual.tetrahedra, help="for cracks, about (default %(default)s)")
-    parser.add_argument("--shard", type=_shard, default=(0, 1), metavar="I/N", help="does every Nth object, from the Ith (default 0/1)")
-    parser.add_argument("--workers", type=int, default=1, help="processes (default %(default)s)")
-    parser.add_argument("--modes", type=int, default=usual.modes, help="vibration modes (default %(default)s)")
+    parser.add_argument("-o", "--out", type=Path, required=True, help="output folder; existing breaks are not made again")
+    parser.add_argument("--material", action="append", help="name of a material; repeat it to make several bodies of each mesh (default porcelain)")
+    parser.add_argument("--breaks", type=int, default=usual.breaks, help="number of breaks of each body (default %(default)s)")
+    parser.add_argument("--category", default=usual.category, help="name of the folder of the objects (default %(default)s)")
+    parser.add_argument("--seed", type=int, default=usual.seed, help="random seed for all blows (default %(default)s)")
+    parser.add_argument("--size", type=float, help="length of the longest side in m (default: meshes are in metres)")
+    parser.add_argument("--wall", type=float, help="make a wall of this thickness along the mesh, in m (default: a solid body)")
+    parser.add_argument("--pieces", type=_limits, default=usual.pieces, metavar="2-20", help="smallest and largest number of pieces (default 2-20)")
+    parser.add_argument("--least-share", type=float, default=usual.least_share, help="smallest share of the body's volume that is a piece of its own (default %(default)s)")
+    parser.add_argument("--tetrahedra", type=int, default=usual.tetrahedra, help="approximate number of tetrahedra of the fracture mesh (default %(default)s)")
+    parser.add_argument("--shard", type=_shard, default=(0, 1), metavar="I/N", help="process every Nth object, starting with the Ith (default 0/1)")
+    parser.add_argument("--workers", type=int, default=1, help="number of processes (default %(default)s)")
+    parser.add_argument("--modes", type=int, default=usual.modes, help="number of vibration modes (default %(default)s)")
     parser.add_argument("--val-share", type=float, default=usual.val_share, help="share of the objects in the val split (default %(default)s)")
-    parser.add_argument("--normalized", action="store_true", help="the unit is the longest side of each body, as Breaking Bad's, instead of the metre")
-    parser.add_argument("--ray", action="store_true", help="gives the objects to a Ray cluster, or to one that it starts here")
-    parser.add_argument("--hdf5", action="store_true", help="also writes garf.hdf5, of all categories that are there")
-    parser.add_argument("--quiet", action="store_true", help="no progress")
+    parser.add_argument("--normalized", action="store_true", help="write OBJ and HDF5 in units of the longest side of each body, as in Breaking Bad, instead of metres")
+    parser.add_argument("--ray", action="store_true", help="use a Ray cluster, or start one on this machine")
+    parser.add_argument("--hdf5", action="store_true", help="also write garf.hdf5 with all categories in the folder")
+    parser.add_argument("--quiet", action="store_true", help="print no progress")
     given = parser.parse_args(words)
     try:
         plan = Plan(
@@ -67,7 +67,7 @@ def main(words: Sequence[str]) -> int:
     except (ValueError, ImportError, OSError) as error:
         print(f"error: {error}", file=sys.stderr)
         return 1
-    print(f"{summary.made} breaks made in {summary.seconds:.1f} s, {summary.there} were there, {len(summary.failed)} failed")
+    print(f"{summary.made} breaks made in {summary.seconds:.1f} s, {summary.there} already existed, {len(summary.failed)} failed")
     for row in summary.failed[:10]:
         print(f"failed: {row['object']} {row['break']}: {row['failed']}", file=sys.stderr)
     return 0

@@ -1,4 +1,4 @@
-"""Makes the breaks of a dataset that are not there yet, in one process or in several."""
+"""Makes the missing breaks of a dataset, in one process or several."""
 
 from __future__ import annotations
 
@@ -24,13 +24,13 @@ Task = TypeVar("Task")
 
 @dataclass
 class Summary:
-    """What a run did.
+    """Summary of a run.
 
     Attributes:
-        made: Breaks made in this run.
-        there: Breaks that were there already.
-        failed: Rows of what could not be made, with the reason.
-        seconds: The time of all workers together, s.
+        made: Number of breaks made in this run.
+        there: Number of breaks that already existed.
+        failed: Rows of the failed breaks, with the reason.
+        seconds: Total time of all workers, s.
     """
 
     made: int = 0
@@ -49,19 +49,20 @@ def make(
     ray: bool = False,
     quiet: bool = False,
 ) -> Summary:
-    """Makes the breaks of a shard that are not there yet; an object that cannot be baked is a row, not the end.
+    """Makes the missing breaks of a shard. An object that cannot be baked gets a row in the manifest and does not stop the run.
 
     Args:
         meshes: Mesh files.
         out: The folder of the dataset.
-        plan: What is made of each mesh.
-        shard: ``(i, n)``: every n-th object from the i-th on.
-        workers: Processes on this machine.
-        ray: Gives the objects to a Ray cluster instead, whose machines all see ``out`` and the meshes under these paths.
-        quiet: Tells no progress.
+        plan: Settings of the dataset.
+        shard: ``(i, n)``: every n-th object, starting with the i-th.
+        workers: Number of processes on this machine.
+        ray: Use a Ray cluster instead; all its machines must see ``out`` and the meshes under these paths.
+        quiet: Print no progress.
 
     Raises:
-        ValueError: Something about the meshes, the plan or the folder, or a process was killed: what was made stays, and the same call goes on.
+        ValueError: The meshes, the plan or the folder are invalid, or a worker was killed; completed breaks are kept, and the same call
+            continues with the rest.
     """
     todo = objects(meshes, plan, shard)
     keep_plan(out, plan)
@@ -95,13 +96,13 @@ def make(
 
 
 def _tell(done: int, all_of_them: int, each: float) -> None:
-    """Says how many breaks there are and how long the others take, each this long, s."""
+    """Prints the number of completed breaks and the remaining time, from the mean time per break, s."""
     left = each * (all_of_them - done)
     print(f"\r{done} of {all_of_them} breaks, {left / 60:.0f} min left ", end="", file=sys.stderr, flush=True)
 
 
 def _each(todo: list[Object], out: Path, plan: Plan, workers: int) -> Iterator[Row | None]:
-    """Rows as they come, None for what is there."""
+    """Yields rows as they are completed, None for an existing break."""
     if workers <= 1:
         for one in todo:
             yield from break_object(one, out, plan)
@@ -120,14 +121,14 @@ def _each(todo: list[Object], out: Path, plan: Plan, workers: int) -> Iterator[R
                 yield from future.result()
             except BrokenProcessPool as error:
                 raise ValueError(
-                    "a worker was killed, perhaps for want of memory; what was made is kept: run this again, with fewer workers"
+                    "a worker was killed, perhaps because memory ran out; completed breaks are kept: run this again with fewer workers"
                 ) from error
 
 
 def in_turn(
     todo: Iterable[Object], most: int, submit: Callable[[Object], Task], first: Callable[[list[Task]], Iterable[Task]]
 ) -> Iterator[tuple[Object, Task]]:
-    """Objects with their tasks as these end, of which so many wait at most: a million objects are not all in memory."""
+    """Yields objects with their completed tasks. At most ``most`` tasks are pending, so a million objects are never all in memory."""
     waiting: dict[Task, Object] = {}
     rest = iter(todo)
     while True:
@@ -142,12 +143,12 @@ def in_turn(
 
 
 def break_all_of(one: Object, out: Path, plan: Plan) -> list[Row | None]:
-    """All rows of one object, for a worker that gives them back together."""
+    """Returns all rows of one object, for a worker process."""
     return list(break_object(one, out, plan))
 
 
 def break_object(one: Object, out: Path, plan: Plan) -> Iterator[Row | None]:
-    """Breaks one object; a row for each break, None where it is there."""
+    """Breaks one object. Yields a row for each break, None for an existing one."""
     mesh, material, name = one
     row = {"category": plan.category, "object": name, "mesh": mesh.name, "material": material}
     try:
@@ -182,5 +183,5 @@ def break_object(one: Object, out: Path, plan: Plan) -> Iterator[Row | None]:
 
 
 def failed(row: Row, k: int, error: object, seconds: float = 0.0) -> Row:
-    """The row of a break that could not be made, with the reason."""
+    """Returns the row of a failed break, with the reason."""
     return {**row, "break": k, "failed": str(error), "seconds": seconds}
