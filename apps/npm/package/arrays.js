@@ -1,6 +1,6 @@
 // Meshes as flat lists of numbers.
 
-/** Of three.js's BufferGeometry, or plain arrays. */
+/** Flat arrays of a three.js BufferGeometry or of plain arrays. */
 export function arraysOf(mesh) {
   const attributes = mesh?.attributes;
   const positions = attributes ? attributes.position?.array : mesh?.positions;
@@ -11,7 +11,7 @@ export function arraysOf(mesh) {
   const count = positions.length / 3;
   const given = attributes ? mesh.index?.array : mesh.indices;
   const indices = Uint32Array.from(given ?? Array.from({ length: count }, (_, i) => i));
-  if (indices.length % 3 || indices.some((i) => i >= count)) throw new RangeError(`the indices are no triangles of ${count} vertices`);
+  if (indices.length % 3 || indices.some((i) => i >= count)) throw new RangeError(`the indices are not triangles of ${count} vertices: give three per triangle, each below ${count}`);
   const list = (array, per) => Float32Array.from(array?.length === per * count ? array : []);
   const normals = attributes ? attributes.normal?.array : mesh.normals;
   const uvs = attributes ? attributes.uv?.array : mesh.uvs;

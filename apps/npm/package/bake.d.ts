@@ -1,38 +1,38 @@
 import type { BufferGeometry } from 'three';
 import type { Breakable } from './index.js';
 
-/** A mesh: any triangles that enclose something. Splits, doubles, turned faces and holes are mended. */
+/** A mesh of triangles that enclose a volume. Split or duplicate vertices, duplicate or inverted faces, and holes are repaired. */
 export type MeshInput = BufferGeometry | { positions: ArrayLike<number>; indices?: ArrayLike<number>; normals?: ArrayLike<number>; uvs?: ArrayLike<number> };
 
 export interface BakeOptions {
-  /** Named material, default `'glass'`: handled, as most is; `'glass-new'` and `'glass-abraded'` have another surface. Its strength scatters as the material's does. */
+  /** Name of the material, default `'glass'`, with handling damage; `'glass-new'` and `'glass-abraded'` differ in their surface. Strength scatters as given by the material. */
   material?: string;
   name?: string;
-  /** Longest side, m. Default: the mesh's unit is the metre. */
+  /** Length of the longest side, m. Default: the mesh is in metres. */
   size?: number;
-  /** Thickness, m, of a wall along the surface; default: the body is what the surface encloses. */
+  /** Make a wall of this thickness, m, along the surface. Default: a solid body. */
   wall?: number;
-  /** How many tetrahedra it has for cracks, default 1500. Walls too thin for them are refused with the number that they need. */
+  /** Approximate number of tetrahedra of the fracture mesh, default 1500. If walls are too thin for it, the error states the number that they need. */
   tetrahedra?: number;
-  /** Vibration modes, default 40. */
+  /** Number of vibration modes, default 40. */
   modes?: number;
-  /** Told meanwhile: the stage, and its share that is done, 0 to 1. */
+  /** Called with the current stage and its completed share, 0 to 1. */
   onProgress?(stage: string, share: number): void;
-  /** Where the second WebAssembly module is, where a bundler has moved it. */
+  /** Location of the second WebAssembly module, if a bundler has moved it. */
   module?: WebAssembly.Module | string | URL | Response;
 }
 
-/** Where the mesh lies: a place p of it is at `scale * p + offset` in the body's frame, m, whose origin is the centre of mass. */
+/** Transform from the mesh to the body: a point p of the mesh is at `scale * p + offset` in the body's frame, m, whose origin is its centre of mass. */
 export interface Placed {
   scale: number;
   offset: [number, number, number];
 }
 
 /**
- * Bakes a mesh: the bytes of a `.frangible` file, for `Breakable.load`. It takes seconds: do it in a worker (`Workshop.bake`), or once, ahead of
- * time.
+ * Bakes a mesh and returns the bytes of a `.frangible` file for `Breakable.load`. Takes seconds: call it in a worker (`Workshop.bake`), or once
+ * ahead of time.
  */
 export function bake(mesh: MeshInput, options?: BakeOptions): Promise<Placed & { bytes: Uint8Array }>;
 
-/** The same, ready to be broken, and its pieces again. */
+/** Bakes a mesh and loads the result, with pieces that can break again. */
 export function breakable(mesh: MeshInput, options?: BakeOptions): Promise<Breakable & Placed>;

@@ -4,110 +4,116 @@ export type Vector = readonly [number, number, number] | ArrayLike<number> & Ite
 /** A quaternion of length 1, x, y, z, w: an array, or an object. */
 export type Rotation = readonly [number, number, number, number] | ArrayLike<number> & Iterable<number> | { x: number; y: number; z: number; w: number };
 
-/** Where a body is: its centre of mass, m, and its rotation. */
+/** Pose of a body: position of its centre of mass, m, and rotation. */
 export interface Pose {
   position: Vector;
   rotation: Rotation;
 }
 
-/** What hits the body. */
+/** The object that hits the body. */
 export interface Striker {
-  /** kg. Infinity, the default: it does not give way. Where the hit is not central: the mass as it is met at the contact. */
+  /** Mass, kg. Default: Infinity, an immovable striker. For an eccentric impact, give the effective mass at the contact. */
   mass?: number;
-  /** Named material, default `'steel'`: `'glass'`, `'stone'`, `'wood'`, `'rubber'`, `'concrete'` … */
+  /** Name of the material, default `'steel'`: `'glass'`, `'stone'`, `'wood'`, `'rubber'`, `'concrete'` … */
   material?: string;
-  /** Radius of curvature at the contact, m. Default: a ball of this mass and material; flat if it does not give way. */
+  /** Radius of curvature at the contact, m. Default: the radius of a ball of this mass and material; flat if the mass is infinite. */
   radius?: number;
-  /** Coefficient of restitution, 0 to 1; default the material's. */
+  /** Coefficient of restitution, 0 to 1. Default: the value of the material. */
   restitution?: number;
 }
 
-/** A contact, in the body's frame (origin at its centre of mass), or in world axes where a pose is given. */
+/** A contact, in the body's frame (origin at its centre of mass), or in world coordinates if `impact` gets a pose. */
 export type Contact = {
-  /** Where, m. */
+  /** Contact point, m. */
   point: Vector;
-  /** Direction of the push on the body, any length: into it. */
+  /** Direction of the push on the body, pointing into it, of any length. */
   normal: Vector;
-  /** Speed of approach along the normal, before the collision, m/s. */
+  /** Approach speed along the normal just before the collision, m/s. */
   speed: number;
   striker?: Striker;
 } | {
   point: Vector;
-  /** A push that a script asks for, N·s, as a half-sine of this duration, s. */
+  /** Impulse of a scripted push, N·s, applied as a half-sine over `duration`, s. */
   impulse: Vector;
   duration: number;
 };
 
-/** A mesh to draw. Groups: the body's own outside first, then crack faces. */
+/** A render mesh: the triangles of the body's original surface, followed by those of the crack faces. */
 export interface Geometry {
   positions: Float32Array;
   normals: Float32Array;
-  /** Texture coordinates: the author's outside, where there were any; metres by box projection elsewhere. */
+  /** Texture coordinates: those of the mesh on the original surface, if it has any; elsewhere a box projection, in metres. */
   uvs: Float32Array;
   indices: Uint32Array;
-  /** How many of the indices are of the body's own outside. */
+  /** Number of leading indices that belong to the body's original surface. */
   outerIndices: number;
 }
 
-/** What bodies and fragments have in common. */
+/** Properties that bodies and fragments share. */
 export interface Solid {
-  /** kg, m³. */
+  /** Mass, kg. */
   mass: number;
+  /** Volume, m³. */
   volume: number;
-  /** Centre of mass, m: of a fragment in the frame of the body that broke, of a whole body the origin. */
+  /** Centre of mass, m: for a fragment, in the frame of the body that broke; for a whole body, the origin. */
   centre: Float64Array;
-  /** Moments of inertia about the centre of mass, kg·m², nine numbers, in the axes of the body that broke. */
+  /** Inertia tensor about the centre of mass, kg·m², nine numbers, in the axes of the body that broke. */
   inertia: Float64Array;
-  /** In its own frame: origin at its centre of mass. */
+  /** Render mesh in the solid's own frame, whose origin is its centre of mass. */
   geometry: Geometry;
-  /** Convex parts for colliders: the points of each, m, in its own frame. */
+  /** Convex parts for colliders: the points of each part, m, in the solid's own frame. */
   hulls: Float32Array[];
-  /** Whether something outside holds it: make it a fixed body. */
+  /** True if a support fixes the solid in place; make it a fixed body in the physics engine. */
   supported: boolean;
 }
 
 export interface Fragment extends Solid {
-  /** The closed surface, without doubled vertices. */
+  /** The closed surface, without duplicate vertices. */
   solid: { positions: Float32Array; indices: Uint32Array };
 }
 
 export interface Report {
-  /** s. */
+  /** Duration of the contact, s. */
   contactDuration: number;
-  /** Largest principal tension at a weak point, what bounds it, and the strength of the weakest point, Pa. */
+  /** Largest principal tensile stress at a weak point, Pa. */
   peakStress: number;
+  /** Upper bound of that stress, Pa. */
   stressBound: number;
+  /** Strength of the weakest point, Pa. */
   strength: number;
-  /** What the blow brought, and what the cracks took, J. */
+  /** Kinetic energy of the approach, J. */
   approachEnergy: number;
+  /** Energy spent on cracks, J. */
   fractureEnergy: number;
-  /** m², one side. */
+  /** Area of the cracks, one side, m². */
   crackArea: number;
+  /** Number of cracks. */
   cracks: number;
-  /** s after the contact began. */
+  /** Time of the first crack, s since the start of the contact. */
   firstCrackTime?: number;
-  /** How long the computation took, s. */
+  /** Time that the computation took, s. */
   seconds: number;
-  /** What became of each contact. */
+  /** Results for each contact. */
   contacts: ContactReport[];
 }
 
-/** What became of a contact. */
+/** Results for a contact. */
 export interface ContactReport {
-  /** N·s. */
+  /** Impulse, N·s. */
   impulse: number;
-  /** N. */
+  /** Largest force, N. */
   peakForce: number;
-  /** s. */
+  /** Duration, s. */
   duration: number;
-  /** How fast striker and body part, m/s. */
+  /** Speed at which striker and body separate, m/s. */
   departureSpeed: number;
-  /** What crushing took, J, and the volume that it crushed, m³. */
+  /** Energy spent on crushing, J. */
   crushingEnergy: number;
+  /** Crushed volume, m³. */
   crushedVolume: number;
 }
 
-/** How something moves: m/s and rad/s, world axes. */
+/** Linear velocity, m/s, and angular velocity, rad/s, in world axes. */
 export interface Motion {
   linear: [number, number, number];
   angular: [number, number, number];
@@ -115,36 +121,36 @@ export interface Motion {
 
 export interface Outcome {
   broke: boolean;
-  /** Strength over a bound of the stress, which may be far above the stress itself: above 1 nothing happened. Of a body that broke: 0. */
+  /** Strength over an upper bound of the stress, which may be far above the stress itself; above 1, no crack started. 0 if the body broke. */
   margin: number;
   report: Report;
-  /** Largest first; together they are the body. Empty where it held. */
+  /** The fragments, largest first; together they make up the body. Empty if it did not break. */
   fragments: Fragment[];
   /**
-   * How fragments and striker move after the break: momentum and angular momentum stay, and energy does not rise. Give the motions
-   * just **before** the collision; take away what the engine has done since. Only where it broke.
+   * Computes the velocities of fragments and striker after the break. Momentum and angular momentum are conserved, and energy does not
+   * increase. Pass the velocities just **before** the collision, without the engine's own collision response. Defined only if the body broke.
    */
   motions?(before: {
     pose?: Pose;
     linear?: Vector;
     angular?: Vector;
-    /** What hit the body, if it gives way: kg, m (its centre of mass, and its radius for its inertia), m/s, rad/s. */
+    /** The striker, if it has a finite mass: kg, m (centre of mass, and radius for its inertia), m/s, rad/s. */
     striker?: { mass: number; position: Vector; radius?: number; inertia?: ArrayLike<number> & Iterable<number>; linear?: Vector; angular?: Vector };
   }): { fragments: (Motion & { position: [number, number, number]; rotation: [number, number, number, number] })[]; striker?: Motion };
   /**
-   * A fragment, by its number, as a body that breaks again, in its own frame: with its share of the weak points, and vibration modes of its
-   * own, which take some tenths of a second to find (do it in a `Workshop`). Only where it broke, and the kind was loaded with `again`.
-   * `undefined`: a crumb, too small to have modes.
+   * Returns a fragment, by its index, as a body that can break again, in its own frame, with its share of the weak points and vibration modes
+   * of its own. Computing the modes takes some tenths of a second, so use a `Workshop`. Defined only if the body broke and was loaded with
+   * `again`. Returns `undefined` for a fragment that is too small for vibration modes.
    */
   body?(fragment: number): Body | undefined;
 }
 
-/** A kind of body: what `frangible bake` made of a shape and a material. */
+/** A kind of body: a shape and a material, baked by `frangible bake`. */
 export class Breakable implements Solid {
   /**
-   * Reads a baked body: an address, bytes, or a response. Rejects with one sentence if it is not there, cut short, or of another version.
-   * `module`: where the WebAssembly module is, where a bundler has moved it. `again`: pieces break again (`Outcome.body`); this takes the
-   * second, larger module in place of the first.
+   * Reads a baked body from a URL, bytes or a response. Rejects with a one-sentence message if the file is missing, truncated or of another
+   * version. `module`: location of the WebAssembly module, if a bundler has moved it. `again`: let pieces break again (`Outcome.body`), which
+   * loads the second, larger module instead of the first.
    */
   static load(source: string | URL | Uint8Array | ArrayBuffer | Response, options?: { module?: WebAssembly.Module | string | URL | Response; again?: boolean }): Promise<Breakable>;
   readonly name: string;
@@ -158,22 +164,22 @@ export class Breakable implements Solid {
   readonly supported: boolean;
   /** Tensile strength, Pa. */
   readonly strength: number;
-  /** One body of the kind. The seed, a whole number, decides its weak points: same seed, same blow, same pieces, bit for bit, everywhere. */
+  /** Makes one body of this kind. The seed, a whole number, selects its weak points; the same seed and blow give bit-identical pieces on every platform. */
   body(seed?: number): Body;
-  /** Gives its memory back now, and not when it is collected. */
+  /** Frees the memory now instead of at garbage collection. */
   free(): void;
 }
 
-/** One body, or a piece of one. It remembers cracks of blows that it held. */
+/** One body, or a piece of one. It keeps the cracks of blows that did not break it. */
 export class Body {
-  /** The kind that it is of; of a piece that of the whole body. */
+  /** The kind of this body; for a piece, the kind of the whole body. */
   readonly kind: Breakable;
   /**
-   * What contacts do to the body. Throws where a number cannot be used, and names it. With a `pose`, contacts are in world axes.
+   * Computes the outcome of contacts on the body. With a `pose`, contacts are in world coordinates. Throws an error that names an invalid value.
    */
   impact(contacts: Contact | Contact[], options?: { pose?: Pose }): Outcome;
   free(): void;
 }
 
-/** Loads the WebAssembly module; `Breakable.load` does so by itself. */
+/** Loads the WebAssembly module in advance; `Breakable.load` also loads it. */
 export function ready(module?: WebAssembly.Module | string | URL | Response): Promise<unknown>;

@@ -1,10 +1,10 @@
-// Bodies that break for physical reasons. index.d.ts tells what there is.
+// Physically based brittle fracture. index.d.ts documents the interface.
 import { baking, breaking, made } from './modules.js';
 
-/** Loads the module; `Breakable.load` does so by itself. */
+/** Loads the module in advance; `Breakable.load` also loads it. */
 export const ready = (module) => breaking(module).then(() => undefined);
 
-/** A kind of body: what a bake made of a shape and a material. */
+/** A kind of body: a baked shape and material. */
 export class Breakable {
   #kind;
   #inside;
@@ -63,7 +63,7 @@ export class Body {
   #piece(found, count, number) {
     if (!Number.isInteger(number) || number < 0 || number >= count) throw new RangeError(`there is no fragment ${number}: give a whole number below ${count}`);
     const { piece } = this.#inside;
-    if (!piece) throw new Error('pieces of this body do not break again: load it with { again: true }');
+    if (!piece) throw new Error('pieces of this body cannot break again: load it with { again: true }');
     const body = made(() => piece(found, number));
     return body && new Body(this.kind, body, this.#inside);
   }
@@ -84,7 +84,7 @@ async function bytesOf(source) {
     return new Uint8Array(await answer.arrayBuffer());
   }
   if (source instanceof Response) return new Uint8Array(await source.arrayBuffer());
-  throw new TypeError('a baked body is an address, a Uint8Array, an ArrayBuffer or a Response');
+  throw new TypeError('the source of a baked body must be a URL, a Uint8Array, an ArrayBuffer or a Response');
 }
 
 const STEEL = 'steel';
@@ -93,7 +93,7 @@ const strikers = new Map();
 /** One row of numbers for the module, of a contact. */
 function rowOf(contact, index, inside) {
   const at = `contacts[${index}]`;
-  if (contact === null || typeof contact !== 'object') throw new TypeError(`${at} is no contact: give { point, normal, speed, striker }`);
+  if (contact === null || typeof contact !== 'object') throw new TypeError(`${at} is not a contact: give { point, normal, speed, striker }`);
   const point = triple(contact.point, `${at}.point`, 'm');
   if (contact.impulse !== undefined) {
     const impulse = triple(contact.impulse, `${at}.impulse`, 'N·s');
@@ -103,10 +103,10 @@ function rowOf(contact, index, inside) {
   const normal = triple(contact.normal, `${at}.normal`, 'the direction of the push on the body');
   const speed = number(contact.speed, `${at}.speed`, 'm/s', (x) => x >= 0 && x < Infinity, '0 or more');
   const { material: name = STEEL, mass = Infinity, radius, restitution } = contact.striker ?? {};
-  number(mass, `${at}.striker.mass`, 'kg', (x) => x > 0, 'a number above 0, or Infinity for one that does not give way');
+  number(mass, `${at}.striker.mass`, 'kg', (x) => x > 0, 'a number above 0, or Infinity for an immovable striker');
   const [modulus, pressure, usual] = known(name, inside);
   const round = radius ?? (mass < Infinity ? made(() => inside.ball(name, mass)) : Infinity);
-  number(round, `${at}.striker.radius`, 'm', (x) => x > 0, 'a number above 0, or Infinity for a flat one');
+  number(round, `${at}.striker.radius`, 'm', (x) => x > 0, 'a number above 0, or Infinity for a flat striker');
   const bounce = number(restitution ?? usual, `${at}.striker.restitution`, '', (x) => x >= 0 && x <= 1, 'a number from 0 to 1');
   return [...point, ...normal, speed, 1 / mass, round, modulus, pressure, bounce, 0, 0, 0, 0];
 }
@@ -158,10 +158,10 @@ function motionsOf(found, centres, { pose, linear = REST, angular = REST, strike
   return { fragments, striker: striker ? at(fragments.length) : undefined };
 }
 
-/** A ball where no inertia is given: what it does to the break's energy is little. */
+/** Row of numbers of the striker. Without a given inertia it is a ball, which affects the energy of the break only little. */
 function strikerRow(striker) {
   if (!striker) return [];
-  const mass = number(striker.mass, 'striker.mass', 'kg', (x) => x > 0 && x < Infinity, 'a number above 0; leave the striker out if it does not give way');
+  const mass = number(striker.mass, 'striker.mass', 'kg', (x) => x > 0 && x < Infinity, 'a number above 0; omit an immovable striker');
   const i = 0.4 * mass * number(striker.radius ?? 0.05, 'striker.radius', 'm', (x) => x > 0 && x < Infinity, 'a number above 0') ** 2;
   const inertia = striker.inertia ? [...striker.inertia] : [i, 0, 0, 0, i, 0, 0, 0, i];
   if (inertia.length !== 9 || !inertia.every(Number.isFinite)) throw new RangeError('striker.inertia: give nine numbers, column by column, kg·m², world axes');

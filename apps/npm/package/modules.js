@@ -1,7 +1,7 @@
-// The two WebAssembly modules. The first breaks bodies; the second does so too, bakes them, and makes their pieces break again.
+// The two WebAssembly modules. The first breaks bodies; the second also bakes them and lets pieces break again.
 import * as first from './frangible_js.js';
 
-/** A function that loads a module once, and tries again after it failed. It gives what the module can do. */
+/** Returns a function that loads a module once, retries after a failure, and returns its exports. */
 function loader(usual, glue) {
   let loading;
   const begin = async (given) => {
@@ -13,13 +13,13 @@ function loader(usual, glue) {
   return (given) => {
     loading ??= begin(given).catch((error) => {
       loading = undefined;
-      throw new Error(`the module of frangible could not be loaded: ${error.message}`, { cause: error });
+      throw new Error(`the WebAssembly module of frangible could not be loaded: ${error.message}`, { cause: error });
     });
     return loading;
   };
 }
 
-/** What a module is made of: bytes or a module at hand, or where it is fetched from. */
+/** Returns the source of a module: bytes, a compiled module, or a URL. */
 async function moduleOf(usual, given) {
   if (given instanceof WebAssembly.Module) return { bytes: given };
   if (given === undefined && usual.protocol === 'file:' && globalThis.process?.versions?.node) {
@@ -32,13 +32,13 @@ async function moduleOf(usual, given) {
 export const breaking = loader(new URL('./frangible_js_bg.wasm', import.meta.url), () => first);
 export const baking = loader(new URL('./frangible_js_bake_bg.wasm', import.meta.url), () => import('./frangible_js_bake.js'));
 
-/** What the modules throw are strings or errors without a stack of the caller's. */
+/** Rethrows errors of the modules with the caller's stack; the modules throw strings, or errors without it. */
 export function made(make) {
   try {
     return make();
   } catch (error) {
     throw error instanceof WebAssembly.RuntimeError
-      ? new Error('frangible failed inside; load the page anew and report what you did', { cause: error })
+      ? new Error('frangible failed with an internal error; reload the page, and please report this as a bug', { cause: error })
       : new Error(error.message ?? String(error), { cause: error });
   }
 }

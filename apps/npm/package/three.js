@@ -1,7 +1,7 @@
-// Geometries and objects for three.js. three.d.ts tells what there is.
+// Geometries and objects for three.js. three.d.ts documents the interface.
 import { BufferAttribute, BufferGeometry, Mesh } from 'three';
 
-/** A BufferGeometry with two groups: 0 is the body's own outside, 1 its crack faces. */
+/** Makes a BufferGeometry with two groups: 0 for the original surface, 1 for the crack faces. */
 export function bufferGeometry({ positions, normals, uvs, indices, outerIndices }) {
   const geometry = new BufferGeometry();
   geometry.setAttribute('position', new BufferAttribute(positions, 3));
@@ -13,12 +13,12 @@ export function bufferGeometry({ positions, normals, uvs, indices, outerIndices 
   return geometry;
 }
 
-/** A Mesh of a whole body or a fragment: one material, or one for the outside and one for the crack faces. */
+/** Makes a Mesh of a whole body or a fragment, with one material, or one for the original surface and one for the crack faces. */
 export function mesh(solid, outer, inner = outer) {
   return new Mesh(bufferGeometry(solid.geometry), [outer, inner]);
 }
 
-/** Meshes of all fragments of a break, placed as the body was: `motions` are those of `outcome.motions(…)`. */
+/** Makes the meshes of all fragments of a break, at the pose of the body; `motions` is the result of `outcome.motions(…)`. */
 export function meshes(outcome, motions, outer, inner = outer) {
   return outcome.fragments.map((fragment, i) => {
     const piece = mesh(fragment, outer, inner);

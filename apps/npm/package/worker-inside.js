@@ -1,4 +1,4 @@
-// What runs in the worker of worker.js.
+// The script of the worker that worker.js opens.
 import { Breakable } from './index.js';
 
 const things = new Map();
@@ -10,7 +10,7 @@ const keep = (thing) => {
   return next;
 };
 
-/** What can be asked; each is told the number of the call first. */
+/** The calls that the worker answers; the first argument is the number of the call. */
 const tasks = {
   async load(_, source, options) {
     const kind = await Breakable.load(source, options);
@@ -48,7 +48,7 @@ async function answer({ id, what, values }) {
   }
 }
 
-/** The arrays of fragments move and are not copied. */
+/** The buffers of fragment arrays, which are transferred instead of copied. */
 function buffers({ fragments = [] } = {}) {
   const views = fragments.filter(({ hulls }) => hulls).flatMap(({ centre, inertia, hulls, geometry, solid }) => [
     centre, inertia, ...hulls, ...Object.values(geometry), ...Object.values(solid),

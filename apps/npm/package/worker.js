@@ -1,4 +1,4 @@
-// Breaks and bakes in a worker, so that frames keep coming: the same as index.js, in promises. worker.d.ts tells what there is.
+// Breaks and bakes bodies in a worker without blocking the page: the interface of index.js with promises. worker.d.ts documents it.
 
 import { arraysOf } from './arrays.js';
 
@@ -49,12 +49,12 @@ export class Workshop {
     });
   }
 
-  /** Bakes a mesh there, as `bake` of bake.js does. */
+  /** Bakes a mesh in the worker, like `bake` of bake.js. */
   async bake(mesh, { onProgress, module, ...options } = {}) {
     return this.#ask('bake', [arraysOf(mesh), options, module === undefined ? undefined : String(module)], onProgress);
   }
 
-  /** Reads a baked body there: an address or bytes. */
+  /** Reads a baked body in the worker, from a URL or bytes. */
   async load(source, { module, again } = {}) {
     const address = typeof source === 'string' || source instanceof URL;
     const from = address ? String(new URL(source, globalThis.location?.href)) : source;
@@ -82,7 +82,7 @@ export class Workshop {
     return outcome;
   }
 
-  /** Ends the worker; what still waits is rejected. */
+  /** Ends the worker and rejects pending calls. */
   async close() {
     const worker = await this.#worker;
     this.#end('the Workshop was closed');
@@ -90,7 +90,7 @@ export class Workshop {
   }
 }
 
-/** A worker of the browser's or of Node's, with the same four functions. */
+/** Opens a worker in the browser or in Node, with the same four functions for both. */
 async function open(address) {
   if (globalThis.Worker) {
     const worker = new Worker(address, { type: 'module' });

@@ -143,7 +143,7 @@ async function refusedFiles() {
   changed[9999] ^= 1;
   await assert.rejects(Breakable.load(changed), /damaged/);
   await assert.rejects(Breakable.load('file:///nowhere.frangible'), /could not be fetched/);
-  await assert.rejects(Breakable.load(5), /a baked body is an address/);
+  await assert.rejects(Breakable.load(5), /the source of a baked body must be a URL/);
 }
 
 /** A box of concrete, and a mesh as three.js has them. */

@@ -44,9 +44,9 @@ function bake(module, scene, tell) {
     baker.addEventListener("message", ({ data: { bodies, problem, what, share } }) => {
       if (bodies) end(done, bodies);
       else if (problem) end(failed, new Error(problem));
-      else if (!tell(what, share)) end(failed, new Error("the bake was given up"));
+      else if (!tell(what, share)) end(failed, new Error("the bake was cancelled"));
     });
-    baker.addEventListener("error", ({ message }) => end(failed, new Error(`the bake has ended: ${message ?? "it could not be started"}`)));
+    baker.addEventListener("error", ({ message }) => end(failed, new Error(`the bake stopped: ${message ?? "it could not be started"}`)));
     baker.postMessage({ module, scene, given: [...given] });
   });
 }

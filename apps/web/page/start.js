@@ -43,7 +43,7 @@ const NOT_IN_LINKS = /^(open|save|screenshot|quit|cancel-)/;
 /** Carries out a command and waits until all that it began is done. */
 async function carryOut(line) {
   const problem = window.frangible_command(line);
-  if (problem) throw new Error(`the link cannot be followed: ${problem}`);
+  if (problem) throw new Error(`the link cannot be replayed: ${problem}`);
   do await new Promise((next) => requestAnimationFrame(next));
   while (!JSON.parse(window.frangible_state()).done);
 }
@@ -66,14 +66,14 @@ function answer(words) {
 /** Puts what was done into the address, and into the clipboard where the browser lets the page. */
 async function share(script) {
   const lines = script.split("\n").filter((line) => line && !line.startsWith("#"));
-  if (lines.some((line) => line.startsWith("open "))) return answer("A link cannot carry a file");
+  if (lines.some((line) => line.startsWith("open "))) return answer("Files cannot be shared by link");
   const at = new URL(location.href);
   const scene = lines.find((line) => line.startsWith("scene "));
   if (scene) at.searchParams.set("scene", scene.slice(6));
   at.hash = String(new URLSearchParams({ do: lines.join(";") }));
   history.replaceState(null, "", at);
   const copied = await navigator.clipboard?.writeText(at.href).then(() => true, () => false);
-  answer(copied ? "Copied" : "It is in the address");
+  answer(copied ? "Copied" : "See the address bar");
 }
 
 /** Says what went wrong first: what follows from it says less. */
@@ -197,7 +197,7 @@ async function start() {
     failed,
   };
   session.addEventListener("message", ({ data }) => Object.entries(data).forEach(([what, value]) => answers[what](value)));
-  session.addEventListener("error", ({ message }) => failed(`The session has ended: ${message ?? "it could not be started"}. Reload the page.`));
+  session.addEventListener("error", ({ message }) => failed(`The simulation has stopped: ${message ?? "it could not be started"}. Reload the page.`));
   session.postMessage({ start: { file: programs.session, scenes, first, byClock } });
 
   const [module, drawn, { default: init }] = await Promise.all([
@@ -207,7 +207,7 @@ async function start() {
   ]);
   times.fetched = performance.now();
   if (!drawn.kind) {
-    failed("This browser gives neither WebGPU nor WebGL 2, which the viewer draws with. Switch hardware acceleration on, or take a newer browser.");
+    failed("This browser supports neither WebGPU nor WebGL 2, one of which the viewer needs. Turn on hardware acceleration, or use a newer browser.");
     return;
   }
   document.documentElement.dataset.renderer = drawn.kind;

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where an object is hit, from the 3D cursor or an empty."""
+"""The blow on an object, placed by the 3D cursor or an empty."""
 
 from dataclasses import dataclass
 
@@ -26,17 +26,17 @@ class Blow:
     speed: float
 
     def contact(self, center):
-        """The blow in the frame of a body whose centre of mass is there."""
+        """Returns the blow in the frame of a body with this centre of mass."""
         ball = fr.Striker(self.material, mass=self.mass, radius=self.radius)
         return fr.Contact(self.point - center, self.direction, speed=self.speed, striker=ball)
 
 
 def blow_of(context, thing, shape):
-    """What the panel's fields say; ValueError where that is no blow."""
+    """Returns the blow set in the panel. Raises ValueError if it is invalid."""
     settings = context.scene.frangible
     for name, value, unit in (("mass", settings.mass, "kg"), ("radius", settings.radius, "m"), ("speed", settings.speed, "m/s")):
         if not (np.isfinite(value) and value > 0):
-            raise ValueError(f"The striker's {name} is {value:g} {unit}; give one above zero.")
+            raise ValueError(f"The striker's {name} is {value:g} {unit}; it must be above zero.")
     find = _by_cursor if settings.place == "CURSOR" else _by_empty
     point, normal, direction = find(context, thing, shape, search_tree(shape.world, shape.triangles))
     if direction.dot(normal) > -0.05:
@@ -63,7 +63,7 @@ def _by_cursor(context, thing, shape, tree):
     point, normal, _, distance = tree.find_nearest(cursor)
     if point is None or distance > NEAR * shape.size:
         away = "far" if point is None else f"{distance:.3g} m"
-        raise ValueError(f"The 3D cursor is {away} from the surface of {thing.name}; put it there with Shift and the right mouse button.")
+        raise ValueError(f"The 3D cursor is {away} from the surface of {thing.name}; place it on the surface with Shift and the right mouse button.")
     normal = _outward(tree, point, normal, shape.size)
     return point, normal, -normal
 
@@ -71,11 +71,11 @@ def _by_cursor(context, thing, shape, tree):
 def _by_empty(context, thing, shape, tree):
     empty = context.scene.frangible.empty
     if empty is None:
-        raise ValueError("No empty is chosen; pick one in the field Empty, or take the 3D cursor.")
+        raise ValueError("No empty is chosen; pick one in the field Empty, or use the 3D cursor.")
     matrix = empty.matrix_world
     way = matrix.to_3x3() @ Vector((0, 0, -1))
     if way.length == 0:
-        raise ValueError(f"The empty {empty.name} has the scale zero; give it one above zero.")
+        raise ValueError(f"The empty {empty.name} has zero scale; set its scale above zero.")
     way.normalize()
     point, normal, _, _ = tree.ray_cast(matrix.translation * shape.unit, way)
     if point is None:

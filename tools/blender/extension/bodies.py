@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Objects as bodies that break: their evaluated mesh, its bake, and the bakes that are kept."""
+"""Bodies of objects: the evaluated mesh, its bake, and the cache of bakes."""
 
 import contextlib
 import hashlib
@@ -57,7 +57,7 @@ def metres(scene):
 
 @contextlib.contextmanager
 def evaluated(context, thing):
-    """The object with its modifiers, and its mesh. Blender applies none to what is hidden: such an object is shown for the moment."""
+    """Yields the evaluated object and its mesh. Temporarily shows a hidden object, because Blender does not evaluate its modifiers otherwise."""
     if context.view_layer.objects.get(thing.name) is not thing:
         raise ValueError(f"{thing.name} is not in this view layer; link it to the scene, or show its collection.")
     if thing.mode == "EDIT":
@@ -69,7 +69,7 @@ def evaluated(context, thing):
             thing.hide_set(False)
             context.view_layer.update()
         if not thing.visible_get():
-            raise ValueError(f"{thing.name} is hidden, so that its modifiers are not known; show it and its collection first.")
+            raise ValueError(f"{thing.name} is hidden, so its modifiers cannot be evaluated; show it and its collection first.")
         seen = thing.evaluated_get(context.evaluated_depsgraph_get())
         mesh = seen.to_mesh()
         try:
@@ -83,11 +83,11 @@ def evaluated(context, thing):
 
 
 def shape_of(context, thing):
-    """The mesh with its modifiers and its transform; ValueError where there is none."""
+    """Returns the evaluated and transformed mesh of an object. Raises ValueError if it has none."""
     if thing is None:
         raise ValueError("No mesh is chosen; pick one in the field Object, or make one active.")
     if thing.type != "MESH":
-        raise ValueError(f"{thing.name} is no mesh; pick a mesh, or convert it to one.")
+        raise ValueError(f"{thing.name} is not a mesh; pick a mesh, or convert it to one.")
     with evaluated(context, thing) as (seen, mesh):
         mesh.calc_loop_triangles()
         places = np.empty(3 * len(mesh.vertices), dtype=np.float32)
@@ -100,12 +100,12 @@ def shape_of(context, thing):
     unit = metres(context.scene)
     local = places.reshape(-1, 3).astype(np.float64)
     if not np.isfinite(local).all() or not np.isfinite(matrix).all():
-        raise ValueError(f"{thing.name} has a vertex or a transform that is not finite; mend it first.")
+        raise ValueError(f"{thing.name} has a vertex or a transform that is not finite; fix it first.")
     return Shape(local @ matrix[:3, :3].T * unit, corners.reshape(-1, 3), matrix[:3, 3] * unit, unit)
 
 
 def search_tree(places, triangles):
-    """A tree that finds the place on a surface next to a point, and what a ray meets."""
+    """Returns a tree for nearest-point and ray queries on a surface."""
     return BVHTree.FromPolygons([Vector(place) for place in places], triangles.tolist())
 
 
@@ -122,7 +122,7 @@ def barycentric(places, triangles):
 
 
 def key_of(shape, settings):
-    """A text that changes whenever another bake is needed. Moving the object does not change it."""
+    """Returns a key that changes whenever a new bake is needed. Moving the object does not change it."""
     words = [settings.material, f"{settings.wall * shape.unit:.9g}", settings.tetrahedra, settings.modes, fr.__version__]
     digest = hashlib.sha256(json.dumps(words).encode())
     digest.update(shape.vertices.astype(np.float32).tobytes())
@@ -131,7 +131,7 @@ def key_of(shape, settings):
 
 
 def target_body(context, thing, tell=None):
-    """The object as a body: loaded, known, kept beside the .blend, or baked now."""
+    """Returns the object as a body: from the chosen file, the memory, the folder beside the .blend, or a new bake."""
     settings = context.scene.frangible
     shape = shape_of(context, thing)
     if settings.file:
@@ -148,7 +148,7 @@ def target_body(context, thing, tell=None):
 
 
 def forget_all():
-    """Empties the memory of bakes; files stay."""
+    """Clears the bakes in memory; files are kept."""
     _baked.clear()
 
 
@@ -161,7 +161,7 @@ def _remember(key, entry):
 def _bake(shape, settings, name, tell):
     sides = shape.vertices.max(axis=0) - shape.vertices.min(axis=0)
     if sides.min() <= 1e-6 * sides.max():
-        raise ValueError(f"{name} is flat and has no thickness; give it some, for example by a Solidify modifier.")
+        raise ValueError(f"{name} is flat and has no thickness; give it thickness, for example with a Solidify modifier.")
     try:
         body = fr.bake(
             shape.vertices,
@@ -215,7 +215,7 @@ def _read_kept(settings, thing, key):
 
 def _keep(thing, key, body, offset):
     if _folder() is None:
-        raise ValueError("The .blend has no folder yet; save it before bakes can be kept beside it.")
+        raise ValueError("The .blend file has no folder yet; save it before keeping bakes beside it.")
     paths = _paths(thing, key)
     if all(map(os.path.exists, paths)):
         return

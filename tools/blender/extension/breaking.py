@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a blow makes of a body: pieces in the world, with their velocities or their paths."""
+"""The pieces of a broken body in the world, with their velocities or paths."""
 
 from dataclasses import dataclass
 
@@ -10,7 +10,7 @@ from .played import SOON, play
 
 @dataclass
 class Piece:
-    """A closed piece where it was in the object."""
+    """A closed piece at its original position in the object."""
 
     vertices: np.ndarray  # (n, 3) from its centre of mass, m, along the world's axes
     faces: np.ndarray  # (m, 3)
@@ -25,7 +25,7 @@ class Piece:
 
 
 def pieces_of(target, blow, seed, settings, seconds=SOON):
-    """The pieces of a blow with a seed, largest first; none if the object holds. Keyframes go on for so many seconds."""
+    """Returns the pieces of a blow, largest first; none if the object does not break. `seconds` is the length of the keyframes."""
     if settings.motion == "KEYFRAMES":
         return [_of_recording(piece, target) for piece in play(target, blow, seed, seconds)]
     return _struck(target, blow, seed)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where an object would break: stress as colours."""
+"""The stress of a blow, shown as colours on the object."""
 
 import warnings
 
@@ -23,7 +23,7 @@ BREAKS = (213, 84, 10)
 
 
 def colours(shares):
-    """Colours (n, 4), linear, of stresses as shares of the strength."""
+    """Returns linear colours (n, 4) for stresses given as shares of the strength."""
     stops = np.array([stop for stop, _ in RAMP])
     table = np.array([colour for _, colour in RAMP], dtype=np.float64)
     found = np.stack([np.interp(shares, stops, table[:, k]) for k in range(3)], axis=1)
@@ -34,7 +34,7 @@ def colours(shares):
 
 
 def tension(target, blow, seed):
-    """The largest tension over time at each vertex of the body, Pa."""
+    """Returns the largest tensile stress over time at each vertex of the body, Pa."""
     body = target.body
     _, stresses = body.stress(blow.contact(target.center), seed=seed)
     with warnings.catch_warnings():
@@ -68,7 +68,7 @@ def write_stress(context, thing, target, stresses, shares):
 
 
 def nearest(places, wanted):
-    """The number of the place that is nearest to each wanted one."""
+    """Returns the index of the place nearest to each wanted place."""
     tree = KDTree(len(places))
     for number, place in enumerate(places):
         tree.insert(Vector(place), number)
@@ -77,7 +77,7 @@ def nearest(places, wanted):
 
 
 def show(context, thing, target, stresses, shares):
-    """An object with the fine surface of the body in colours, in the place of the object itself."""
+    """Shows the coloured surface of the body in place of the object."""
     clear(context.scene, thing)
     name, unit, body = view_name(thing), target.shape.unit, target.body
     mesh = bpy.data.meshes.new(name)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the panel's buttons do. All is found before anything in the file changes, so that an error loses nothing."""
+"""The operators of the panel. Everything is computed before the file changes, so an error loses nothing."""
 
 import math
 
@@ -19,7 +19,7 @@ SURFACE = (0.6, 0.1)
 
 
 class Step(bpy.types.Operator):
-    """A button: its work is in `work`, whose ValueError is the sentence that the user reads."""
+    """Base class of the operators: `work` does the work, and its ValueError is shown to the user."""
 
     bl_options = {"REGISTER", "UNDO"}
 
@@ -52,7 +52,7 @@ class Progress:
 
 
 def prepared(context):
-    """The object, its body, weak where it is painted, and the blow that the panel tells of."""
+    """Returns the object, its body with the painted weakness, and the blow set in the panel."""
     thing = target_of(context)
     shape = shape_of(context, thing)
     # What is wrong with the blow or the paint is said before the bake, which takes seconds.
@@ -65,19 +65,19 @@ def prepared(context):
 def about(target):
     """One line about a body."""
     body = target.body
-    return f"{body.mass:.4g} kg of {body.material}, {body.tetrahedra} tetrahedra, lowest tone {body.frequencies[0]:.0f} Hz"
+    return f"{body.mass:.4g} kg of {body.material}, {body.tetrahedra} tetrahedra, lowest frequency {body.frequencies[0]:.0f} Hz"
 
 
 def held(thing, target, blow, seed):
-    """The sentence about a blow that breaks nothing."""
+    """Returns the message about a blow that does not break the object."""
     speed = target.body.minimum_speed(blow.contact(target.center), seed)
     if math.isinf(speed):
-        return f"The blow does not break {thing.name}, at no speed up to 1000 m/s; take a harder or heavier striker."
-    return f"The blow does not break {thing.name} at {blow.speed:.3g} m/s; it takes {speed:.3g} m/s there."
+        return f"The blow does not break {thing.name} at any speed up to 1000 m/s; use a harder or heavier striker."
+    return f"The blow does not break {thing.name} at {blow.speed:.3g} m/s; at this point it takes {speed:.3g} m/s."
 
 
 class FRANGIBLE_OT_bake(Step):
-    """Makes the object breakable: finds its tetrahedra and vibrations. The other buttons do this too, where it is needed"""
+    """Bake the object: compute its tetrahedra and vibration modes. The other buttons bake automatically when needed"""
 
     bl_idname = "frangible.bake"
     bl_label = "Bake"
@@ -87,12 +87,12 @@ class FRANGIBLE_OT_bake(Step):
         thing = target_of(context)
         with Progress(context) as tell:
             target = target_body(context, thing, tell)
-        begin = "Baked" if target.fresh else "Known"
+        begin = "Baked" if target.fresh else "Already baked"
         return self.told(context, f"{begin}: {about(target)}")
 
 
 class FRANGIBLE_OT_show_stress(Step):
-    """Colours the object by the tension that the blow would cause, before anything breaks"""
+    """Colour the object by the tensile stress that the blow would cause"""
 
     bl_idname = "frangible.show_stress"
     bl_label = "Show Stress"
@@ -109,17 +109,17 @@ class FRANGIBLE_OT_show_stress(Step):
         colours.show(context, thing, target, stresses, shares)
         lines = [
             f"{about(target)}",
-            f"Tension up to {stresses.max() / 1e6:.3g} MPa; strength {target.body.strength / 1e6:.3g} MPa",
+            f"Tensile stress up to {stresses.max() / 1e6:.3g} MPa; strength {target.body.strength / 1e6:.3g} MPa",
         ]
         if np.ndim(target.left):
-            lines.append(f"With the paint the tension is up to {shares.max():.3g} times the strength there")
-        slowest = "at no speed up to 1000 m/s" if math.isinf(speed) else f"from {speed:.3g} m/s on"
-        lines.append(f"It breaks {slowest}; margin {margin:.3g} at {blow.speed:.3g} m/s")
+            lines.append(f"With the painted weakness the stress is up to {shares.max():.3g} times the strength there")
+        slowest = "It does not break up to 1000 m/s" if math.isinf(speed) else f"It breaks from {speed:.3g} m/s"
+        lines.append(f"{slowest}; margin {margin:.3g} at {blow.speed:.3g} m/s")
         return self.told(context, *lines)
 
 
 class FRANGIBLE_OT_hide_stress(Step):
-    """Removes the coloured surface and shows the object again"""
+    """Remove the coloured surface and show the object again"""
 
     bl_idname = "frangible.hide_stress"
     bl_label = "Hide Stress"
@@ -132,7 +132,7 @@ class FRANGIBLE_OT_hide_stress(Step):
 
 
 class FRANGIBLE_OT_break(Step):
-    """Breaks the object by the blow: its pieces come into a collection of their own, and the object itself is hidden"""
+    """Break the object with the blow. The pieces go into a new collection, and the object is hidden"""
 
     bl_idname = "frangible.break_object"
     bl_label = "Break"
@@ -151,12 +151,12 @@ class FRANGIBLE_OT_break(Step):
         collection = bpy.data.collections.new(thing.name)
         scene.collection.children.link(collection)
         parts = pieces.piece_objects(thing, found, outside, settings, unit, collection)
-        told = f"{len(found)} pieces, the largest of {found[0].mass:.3g} kg, in the collection {collection.name}"
+        told = f"{len(found)} pieces, the largest {found[0].mass:.3g} kg, in the collection {collection.name}"
         if settings.motion == "RIGID":
             if settings.ground:
                 motion.add_ground(scene, target.shape.size / unit)
             broke = motion.as_rigid_bodies(scene, thing, parts, found, unit, SURFACE)
-            told += f"; they break off in frame {broke}"
+            told += f"; the break is in frame {broke}"
         else:
             if settings.motion == "KEYFRAMES":
                 motion.as_keyframes(scene, parts, found, unit)

@@ -30,7 +30,7 @@ class FRANGIBLE_PT_panel(bpy.types.Panel):
             layout.label(text=line)
 
     def draw_object(self, box, context, settings, thing):
-        box.label(text="1. What breaks")
+        box.label(text="1. Object")
         box.prop(settings, "target")
         if thing is not None:
             unit = metres(context.scene)
@@ -43,7 +43,7 @@ class FRANGIBLE_PT_panel(bpy.types.Panel):
         box.operator("frangible.bake")
 
     def draw_blow(self, box, settings):
-        box.label(text="2. The blow")
+        box.label(text="2. Blow")
         box.prop(settings, "place")
         if settings.place == "EMPTY":
             box.prop(settings, "empty")
@@ -51,7 +51,7 @@ class FRANGIBLE_PT_panel(bpy.types.Panel):
             box.prop(settings, name, text=text)
 
     def draw_stress(self, box, context, settings, thing):
-        box.label(text="3. Where it would break")
+        box.label(text="3. Stress")
         if thing is not None:
             box.prop_search(settings, "weakness", thing, "vertex_groups")
             if settings.weakness:
@@ -62,7 +62,7 @@ class FRANGIBLE_PT_panel(bpy.types.Panel):
             row.operator("frangible.hide_stress")
 
     def draw_seeds(self, box, context, settings):
-        box.label(text="4. Which pieces")
+        box.label(text="4. Seed")
         box.prop(settings, "seed")
         found = entries(context.scene)
         row = box.row(align=True)
@@ -74,7 +74,7 @@ class FRANGIBLE_PT_panel(bpy.types.Panel):
                 grid.operator("frangible.pick_seed", text=f"{seed}: {count}").seed = seed
 
     def draw_break(self, box, settings):
-        box.label(text="5. The break")
+        box.label(text="5. Break")
         box.prop(settings, "inside")
         box.prop(settings, "motion")
         if settings.motion == "KEYFRAMES":

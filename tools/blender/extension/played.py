@@ -22,7 +22,7 @@ def play(target, blow, seed, seconds):
     """The pieces of a blow and their paths, for so many seconds; no pieces if the body holds, even if its fall would break it later."""
     low = float(target.shape.world[:, 2].min())
     if low < -STANDING:
-        raise ValueError(f"The object reaches {-low:.3g} m below the ground at z = 0; lift it, or let rigid bodies move the pieces.")
+        raise ValueError(f"The object reaches {-low:.3g} m below the ground at z = 0; lift it, or choose rigid bodies for the pieces.")
     world = fr.World(floor="stone", seed=seed)
     world.add(target.body, position=to_file(target.center), rotation=TO_FILE, name=BODY)
     # The ball touches the surface at the point, and goes back along its way by a little.
@@ -30,7 +30,7 @@ def play(target, blow, seed, seconds):
     start = touching - OUTSIDE * blow.radius * blow.direction
     if start[2] < blow.radius:
         inside = blow.radius - start[2]
-        raise ValueError(f"The striker would start {inside:.3g} m inside the ground; hit the object higher up, or with a smaller one.")
+        raise ValueError(f"The striker would start {inside:.3g} m inside the ground; hit the object higher up, or use a smaller striker.")
     world.throw(to_file(start), to_file(touching), blow.speed, mass=blow.mass, radius=blow.radius, material=blow.material)
     world.step(min(SOON, seconds))
     if any(thing.kind == "piece" for thing in world.things) and seconds > SOON:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Nine seeds beside the object, to choose one."""
+"""Nine variants of the break, one per seed, beside the object."""
 
 import bpy
 import numpy as np
@@ -32,7 +32,7 @@ def entries(scene):
 
 
 class FRANGIBLE_OT_nine_seeds(Step):
-    """Breaks the object with nine seeds and lays the variants out beside it, to choose one"""
+    """Break the object with nine seeds and place the variants beside it for comparison"""
 
     bl_idname = "frangible.nine_seeds"
     bl_label = "Nine Seeds"
@@ -73,7 +73,7 @@ def _variant(sheet, thing, seed, found, outside, inside, at, size, unit):
         variant["frangible_seed"] = seed
         collection.objects.link(variant)
     text = bpy.data.curves.new(f"{thing.name} seed {seed} text", "FONT")
-    text.body = f"{seed}: {len(found)} pieces" if found else f"{seed}: holds"
+    text.body = f"{seed}: {len(found)} pieces" if found else f"{seed}: not broken"
     text.size, text.align_x = 0.14 * size / unit, "CENTER"
     label = bpy.data.objects.new(text.name, text)
     low = float(outside.places[:, 2].min()) + outside.origin[2]
@@ -82,7 +82,7 @@ def _variant(sheet, thing, seed, found, outside, inside, at, size, unit):
 
 
 class FRANGIBLE_OT_pick_seed(Step):
-    """Takes this seed and removes the nine variants"""
+    """Use this seed and remove the nine variants"""
 
     bl_idname = "frangible.pick_seed"
     bl_label = "Pick Seed"
@@ -98,7 +98,7 @@ class FRANGIBLE_OT_pick_seed(Step):
 
 
 class FRANGIBLE_OT_clear_seeds(Step):
-    """Removes the nine variants and keeps the seed"""
+    """Remove the nine variants and keep the seed"""
 
     bl_idname = "frangible.clear_seeds"
     bl_label = "Clear"

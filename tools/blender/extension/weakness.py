@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Weakness that is painted as a vertex group."""
+"""Weakness painted with a vertex group."""
 
 from dataclasses import replace
 

@@ -26,7 +26,7 @@ def written(thing):
 def shown_numbers():
     """The slowest speed, m/s, and the margin that the panel tells."""
     bpy.ops.frangible.show_stress()
-    found = re.search(r"It breaks from (\S+) m/s on; margin (\S+) at", bpy.context.scene.frangible.found)
+    found = re.search(r"It breaks from (\S+) m/s; margin (\S+) at", bpy.context.scene.frangible.found)
     return float(found.group(1)), float(found.group(2))
 
 
