@@ -22,7 +22,7 @@ pub(crate) fn features_agree() -> Result<Vec<String>> {
             let missing = sets.difference(known).next()?;
             let wanted: Vec<&str> = known.iter().map(String::as_str).collect();
             Some(format!(
-                "{package} has `{missing}` in the first build, and in the tests `{}`",
+                "{package} has `{missing}` in the first build, but `{}` in the tests",
                 wanted.join("` or `")
             ))
         })
@@ -31,7 +31,7 @@ pub(crate) fn features_agree() -> Result<Vec<String>> {
         return Ok(Vec::new());
     }
     Err(format!(
-        "the tests compile what the first build has compiled; give these packages the same features in apps/frangible/Cargo.toml:\n{}",
+        "the tests recompile packages of the first build; give these packages the same features in apps/frangible/Cargo.toml:\n{}",
         twice.join("\n")
     ))
 }

@@ -82,7 +82,7 @@ fn fresh(target: &Path) -> Result<PathBuf> {
         .split("```")
         .nth(1)
         .and_then(|code| code.split_once('\n'));
-    let (_, lines) = lines.ok_or("the page of bevy_frangible begins with no lines of code")?;
+    let (_, lines) = lines.ok_or("the documentation of bevy_frangible does not begin with a code block")?;
     let without_window = "(bevy::log::LogPlugin::default(), MinimalPlugins, AssetPlugin::default(), TransformPlugin, \
                           bevy::mesh::MeshPlugin)";
     let end = ".add_observer(|_: On<Broke>, mut exit: MessageWriter<AppExit>| { exit.write(AppExit::Success); })
@@ -103,7 +103,7 @@ fn fresh(target: &Path) -> Result<PathBuf> {
             .map(|line| line.replace(", optional = true", ""))
     };
     let (Some(avian), Some(bevy)) = (engine("avian3d"), engine("bevy")) else {
-        return Err("bevy_frangible/Cargo.toml names no avian3d or bevy".into());
+        return Err("bevy_frangible/Cargo.toml does not list avian3d or bevy".into());
     };
     let path = |name: &str| root().join(name).display().to_string();
     let manifest = format!(

@@ -34,12 +34,12 @@ pub(crate) fn blender() -> Result<Vec<String>> {
         pip
     };
     if announced(&mut pip(&TOOLS)).is_err() {
-        return skipped("blender", "its module cannot be installed here");
+        return skipped("blender", "the `bpy` module cannot be installed here");
     }
     if !succeeds(&python.to_string_lossy(), &["-c", "import bpy"]) {
         return skipped(
             "blender",
-            "its module does not start here; `import bpy` says which library it misses",
+            "the `bpy` module cannot be loaded here; `import bpy` reports the missing library",
         );
     }
     let wheels = target().join("python").join("wheels");

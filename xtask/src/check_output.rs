@@ -21,7 +21,7 @@ pub(crate) fn check_output(folder: &Path) -> Result {
     let report = folder.join("report.json");
     let text = read(&report)?;
     let report: Value = serde_json::from_slice(&text)
-        .map_err(|error| format!("`{}` is no JSON: {error}", report.display()))?;
+        .map_err(|error| format!("`{}` is not JSON: {error}", report.display()))?;
     let fragments = check_report(&report)?;
     for path in files(folder, "glb")? {
         let bytes = read(&path)?;
@@ -52,7 +52,7 @@ pub(crate) fn check_output(folder: &Path) -> Result {
 
 /// An error if the picture cannot be read, or has few colours.
 fn shows_something(png: &[u8]) -> Result {
-    let damaged = |error| format!("is no whole picture: {error}");
+    let damaged = |error| format!("is not a complete picture: {error}");
     let mut reader = png::Decoder::new(std::io::Cursor::new(png))
         .read_info()
         .map_err(damaged)?;
@@ -71,7 +71,7 @@ fn shows_something(png: &[u8]) -> Result {
 fn check_report(report: &Value) -> Result<u64> {
     let fragments = report["fragments"]
         .as_u64()
-        .ok_or("the report has no whole number `fragments`")?;
+        .ok_or("`fragments` is missing in the report or not a whole number")?;
     if fragments <= FEW_FRAGMENTS {
         return Err(format!(
             "the report counts {fragments} fragments, expected more than {FEW_FRAGMENTS}"
@@ -119,7 +119,7 @@ fn files(folder: &Path, ending: &str) -> Result<Vec<PathBuf>> {
     paths.sort();
     match paths.is_empty() {
         true => Err(format!(
-            "`{}` holds no .{ending} file; did the run have `--out`?",
+            "`{}` contains no .{ending} file; did the run use `--out`?",
             folder.display()
         )),
         false => Ok(paths),

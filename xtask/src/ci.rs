@@ -259,18 +259,18 @@ fn oldest_rust() -> Result<Vec<String>> {
     let oldest = manifest
         .lines()
         .find_map(|line| line.strip_prefix("rust-version = \"")?.strip_suffix('"'))
-        .ok_or("Cargo.toml names no `rust-version`")?;
+        .ok_or("Cargo.toml has no `rust-version`")?;
     let used = output(&mut cargo(&["--version"]))?;
     let used = String::from_utf8_lossy(&used);
     let used = used.split_whitespace().nth(1).unwrap_or("");
     if used == oldest || used.starts_with(&format!("{oldest}.")) {
-        println!("this is Rust {used}: all steps are checks of it");
+        println!("Rust {used} is the oldest supported version, so all steps check it");
         return Ok(Vec::new());
     }
     let toolchain = format!("+{oldest}");
     if !succeeds("cargo", &[&toolchain, "--version"]) {
         let why = format!(
-            "this is Rust {used}, and Rust {oldest} is not installed; `rustup toolchain install {oldest}` gets it"
+            "this is Rust {used}, and Rust {oldest} is not installed; install it with `rustup toolchain install {oldest}`"
         );
         return skipped("oldest rust", &why);
     }

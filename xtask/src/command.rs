@@ -181,7 +181,7 @@ fn end(child: &mut Child) {
 }
 
 fn failed(command: &Command) -> String {
-    format!("`{}` failed; its messages are above", shown(command))
+    format!("`{}` failed; see its output above", shown(command))
 }
 
 fn start_failed(command: &Command, error: &std::io::Error) -> String {

@@ -31,7 +31,7 @@ pub(crate) fn counts(write: bool) -> Result<Vec<String>> {
     if !valgrind() {
         return skipped(
             "counts",
-            "there is no valgrind; install it (Debian, Ubuntu: `apt-get install valgrind`)",
+            "valgrind was not found; install it (Debian, Ubuntu: `apt-get install valgrind`)",
         );
     }
     let tools = tools()?;
@@ -39,7 +39,7 @@ pub(crate) fn counts(write: bool) -> Result<Vec<String>> {
         (true, _) => Vec::new(),
         (false, Err(error)) => {
             return Err(format!(
-                "`{STORED}` cannot be read: {error}; `cargo xtask counts --write` makes it"
+                "`{STORED}` cannot be read: {error}; create it with `cargo xtask counts --write`"
             ));
         }
         (false, Ok(text)) => {
@@ -48,7 +48,7 @@ pub(crate) fn counts(write: bool) -> Result<Vec<String>> {
                 return skipped(
                     "counts",
                     &format!(
-                        "the stored counts are of {there}, this is {here}; `cargo xtask counts --write` counts anew"
+                        "the stored counts are for {there}, but this is {here}; update them with `cargo xtask counts --write`"
                     ),
                 );
             }
@@ -153,7 +153,7 @@ fn text(tools: &Tools, counts: &[Count]) -> String {
 }
 
 fn parse(text: &str) -> Result<(Tools, Vec<Count>)> {
-    let wrong = || format!("`{STORED}` is damaged; `cargo xtask counts --write` makes it anew");
+    let wrong = || format!("`{STORED}` is damaged; create it again with `cargo xtask counts --write`");
     let mut lines = text.lines().skip(1);
     let mut tool = || Some(lines.next()?.strip_prefix("# ")?.to_owned());
     let (Some(rustc), Some(valgrind), Some(system)) = (tool(), tool(), tool()) else {
@@ -187,13 +187,13 @@ fn compare(found: &[Count], stored: &[Count]) -> Result<Vec<String>> {
         .iter()
         .find(|(name, _)| !found.iter().any(|(n, _)| n == name))
     {
-        lines.push(format!("counts: {gone} is stored, but no case any more"));
+        lines.push(format!("counts: {gone} is stored but no longer a case"));
     }
     if grown.is_empty() {
         return Ok(lines);
     }
     Err(format!(
-        "more instructions than stored in {STORED}, by over 5 %:\n{}\nwhere that is meant: cargo xtask counts --write",
+        "over 5 % more instructions than stored in {STORED}:\n{}\nif this is intended, run cargo xtask counts --write",
         grown.join("\n")
     ))
 }

@@ -62,7 +62,7 @@ pub(crate) fn dist() -> Result<Vec<String>> {
     fs::remove_dir_all(&trial).map_err(|error| problem(&trial, &error))?;
     let size = fs::metadata(&archive).map_err(|error| problem(&archive, &error))?;
     let line = format!(
-        "dist: {} ({:.1} MB) runs where it is unpacked",
+        "dist: {} ({:.1} MB) runs after unpacking",
         archive.display(),
         size.len() as f64 / 1e6
     );
@@ -77,7 +77,7 @@ fn version() -> Result<String> {
     let version = id.trim().rsplit(['#', '@']).next();
     version
         .map(str::to_owned)
-        .ok_or_else(|| format!("cargo calls the program `{id}`, which has no version"))
+        .ok_or_else(|| format!("the package id `{id}` of the program has no version"))
 }
 
 fn problem(path: &Path, error: &std::io::Error) -> String {

@@ -43,7 +43,7 @@ pub(crate) fn fuzz(seconds: u64) -> Result<Vec<String>> {
     if !cfg!(unix) || !cpp_compiler() {
         return skipped(
             "fuzz",
-            "there is no C++ compiler, or none that libFuzzer knows",
+            "no C++ compiler that libFuzzer supports was found",
         );
     }
     if !succeeds("cargo", &["fuzz", "--version"]) {
@@ -164,7 +164,7 @@ fn run_target(folders: &Folders, name: &str, seconds: u64) -> Result<String> {
             ))
         }
         None => Err(format!(
-            "fuzz target `{name}` did not stop; its log is {}",
+            "fuzz target `{name}` did not stop; see its log {}",
             log.display()
         )),
         Some(_) => Err(finding(
@@ -182,7 +182,7 @@ fn run_target(folders: &Folders, name: &str, seconds: u64) -> Result<String> {
 /// The input itself comes last: often the end of this text is all that is left of a machine on which a target failed.
 fn finding(name: &str, program: &Path, log: &Path, input: Option<&str>, said: &str) -> String {
     let mut lines = vec![format!(
-        "fuzz target `{name}` failed; its log is {}",
+        "fuzz target `{name}` failed; see its log {}",
         log.display()
     )];
     let panic = said

@@ -75,7 +75,7 @@ pub(crate) fn warm() -> Result<Vec<String>> {
     }
     let names: Vec<&str> = cold.iter().map(|leaf| leaf.name).collect();
     let line = format!(
-        "leaves: not checked, as their build folders are cold: {}; `cargo xtask ci 'all leaves'` warms them",
+        "leaves: not checked because they have not been built yet: {}; build them with `cargo xtask ci 'all leaves'`",
         names.join(", ")
     );
     println!("{line}");

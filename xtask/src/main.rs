@@ -1,4 +1,4 @@
-//! The project's chores. `cargo xtask help` lists them.
+//! Development tasks of the project. `cargo xtask help` lists them.
 
 mod agree;
 mod bevy;
@@ -27,33 +27,33 @@ use command::Result;
 use outcomes::{Wish, outcomes};
 
 const HELP: &str = "\
-cargo xtask test [--fast]     setup, then all tests of the workspace in the release profile; --fast leaves out those over three seconds
-cargo xtask test NAME…        those tests alone whose module and name contain one of these, in the same build
-cargo xtask ci                the gate: what must hold before a change goes in, with the minutes per step
-cargo xtask ci --all          the gate, then the steps that it only names with the day on which they last passed
-cargo xtask ci STEP...        these steps alone: cargo xtask ci clippy 'oldest rust'
+cargo xtask test [--fast]     install what is missing, then run all tests of the workspace in the release profile; --fast skips tests of over three seconds
+cargo xtask test NAME…        run only the tests whose module and name contain one of these words, in the same build
+cargo xtask ci                run the checks that a change must pass, with the minutes per step
+cargo xtask ci --all          run these checks, then the steps that `ci` only lists with the day on which they last passed
+cargo xtask ci STEP...        run only these steps, for example cargo xtask ci clippy 'oldest rust'
 cargo xtask outcomes [--write FILE | --against FILE]
-                              break all built-in scenes; print, store or compare pieces, areas, energies and bits
-cargo xtask counts [--write]  count the instructions of each stage; fail where they grew by over 5 %, or store them
-cargo xtask rebake            write the baked bodies and states in fuzz/corpus and those that the core's tests break anew
-cargo xtask fuzz [SECONDS]    feed hostile bytes to each reader of files, and to blows, worlds and scenes, for so long, 30 s if not told
-cargo xtask web [--out DIR]   make the viewer's page for browsers, one static folder: target/web/page if not told
-cargo xtask web-test          make it, and break scenes and a mesh in it with Chromium, drawn by the processor
-cargo xtask web-bits          play scenes in the part of it that computes, in Node, and compare every bit with a run without it
-cargo xtask npm               make the npm package, install it in an empty project, and try it in Node and in Chromium
-cargo xtask python            make the wheel for Python, and try it in an environment of its own
-cargo xtask blender           try the extension with that wheel in Blender's Python, which is fetched, without a window
-cargo xtask semver [REV]      compare what the published crates offer with the last version, or with another commit
-cargo xtask bevy              lint and test the plugin for Bevy, in its own workspace
-cargo xtask bevy-drawn        lint its examples with a window, and compare their pictures
-cargo xtask bevy-web          make one of them as a page for browsers, target/web/bevy-page, and open it in Chromium, drawn by the processor
+                              break all built-in scenes, and print, store or compare pieces, areas, energies and bit patterns
+cargo xtask counts [--write]  count the instructions of each stage; fail if one grew by over 5 %, or store the counts with --write
+cargo xtask rebake            regenerate the baked bodies and states in fuzz/corpus and in the tests of the core crate
+cargo xtask fuzz [SECONDS]    fuzz each file reader, blows, worlds and scenes for this long each [default: 30]
+cargo xtask web [--out DIR]   build the web viewer as a static folder [default: target/web/page]
+cargo xtask web-test          build the web viewer, and test scenes and a mesh in Chromium with software rendering
+cargo xtask web-bits          run scenes in the simulation module of the web viewer in Node, and compare every bit with a native run
+cargo xtask npm               build the npm package, install it in an empty project, and test it in Node and in Chromium
+cargo xtask python            build the Python wheel, and test it in a virtual environment
+cargo xtask blender           test the Blender extension with that wheel in the downloaded `bpy` module, without a window
+cargo xtask semver [REV]      compare the public interface of the published crates with the last version, or with another commit
+cargo xtask bevy              lint and test the Bevy plugin, in its own workspace
+cargo xtask bevy-drawn        lint the examples of the Bevy plugin, and compare their pictures
+cargo xtask bevy-web          build one of these examples as a web page, target/web/bevy-page, and open it in Chromium with software rendering
 cargo xtask book [--write | --html | PAGE.md]
-                              run what the book shows, check its links, and make it HTML where mdBook is installed; --write also
-                              writes outputs that it shows whole, such as the reference of the command line; --html runs nothing;
-                              with a page, such as book/src/start/rapier.md, run that alone
-cargo xtask dist              pack the program as an archive, and try what comes out of it
-cargo xtask setup             install the system packages that are missing, where that is allowed
-cargo xtask check-output DIR  check what `cargo run --release -- --out DIR --json > DIR/report.json` wrote";
+                              run the commands in the book, check its links, and make it HTML if mdBook is installed; --write also
+                              updates the outputs that it shows in full, such as the command-line reference; --html runs nothing;
+                              with a page, such as book/src/start/rapier.md, run only that page
+cargo xtask dist              pack the program as an archive, and test the archive
+cargo xtask setup             install missing system packages, if permitted
+cargo xtask check-output DIR  check the output of `cargo run --release -- --out DIR --json > DIR/report.json`";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -104,7 +104,7 @@ fn run(words: &[&str]) -> Result {
         ["fuzz", seconds] => match seconds.parse() {
             Ok(seconds @ 1..) => fuzz::fuzz(seconds).map(drop),
             _ => Err(format!(
-                "`{seconds}` is no whole number of seconds from 1; for example `cargo xtask fuzz 60`"
+                "`{seconds}` is not a whole number of seconds from 1, as in `cargo xtask fuzz 60`"
             )),
         },
         ["python"] => python::wheel().map(drop),
@@ -135,7 +135,7 @@ fn run(words: &[&str]) -> Result {
             Ok(())
         }
         _ => Err(format!(
-            "`{}` is not a chore; the chores are:\n{HELP}",
+            "unknown command `{}`; the commands are:\n{HELP}",
             words.join(" ")
         )),
     }

@@ -67,7 +67,7 @@ pub(crate) fn outcomes(wish: &Wish<'_>) -> Result {
 fn read(path: &Path) -> Result<String> {
     fs::read_to_string(path).map_err(|error| {
         format!(
-            "`{}` cannot be read: {error}; `cargo xtask outcomes --write FILE` makes such a file",
+            "`{}` cannot be read: {error}; create it with `cargo xtask outcomes --write FILE`",
             path.display()
         )
     })
@@ -78,7 +78,7 @@ fn parse(text: &str) -> Result<Vec<Outcome>> {
         let words: Vec<&str> = line.split_whitespace().collect();
         let [scene, body, pieces, area, energy, bits] = words[..] else {
             return Err(format!(
-                "the line `{line}` is not scene, body, pieces, area, energy and bits"
+                "the line `{line}` must have the form scene, body, pieces, area, energy, bits"
             ));
         };
         Ok(Outcome {
@@ -103,7 +103,7 @@ fn differences(before: &[Outcome], after: &[Outcome]) -> Vec<String> {
             None => lines.push(format!("{}: new: {}", now.of, told(now))),
             Some(old) if old.bits == now.bits => {}
             Some(old) if old.figures == now.figures => {
-                lines.push(format!("{}: {}, but other bits", now.of, told(now)));
+                lines.push(format!("{}: {}, but the bits differ", now.of, told(now)));
             }
             Some(old) => lines.push(format!("{}: {} → {}", now.of, told(&old), told(now))),
         }

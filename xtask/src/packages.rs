@@ -29,7 +29,7 @@ pub(crate) fn package_lists() -> Result<Vec<String>> {
         }
         if !files.contains(&"README.md") {
             return Err(format!(
-                "package `{name}` has no README.md, which its page in the registry would show"
+                "package `{name}` has no README.md for its page in the registry"
             ));
         }
         println!("{name}: {} files", files.len());

@@ -26,7 +26,7 @@ const TOOLS: [&str; 11] = [
 pub(crate) fn wheel() -> Result<Vec<String>> {
     let Some(interpreter) = python() else {
         return Err(
-            "there is no Python 3.10 or later with `venv`; install python3 and python3-venv".into(),
+            "Python 3.10 or later with `venv` was not found; install python3 and python3-venv".into(),
         );
     };
     let from = root().join("apps/python");
@@ -124,7 +124,7 @@ pub(crate) fn only_file(folder: &Path) -> Result<PathBuf> {
     match &files[..] {
         [file] => Ok(file.clone()),
         _ => Err(format!(
-            "`{}` has {} wheels in place of one",
+            "`{}` contains {} wheels instead of one",
             folder.display(),
             files.len()
         )),

@@ -13,7 +13,7 @@ const VERSION: &str = "0.51.0";
 /// Removing something that the version still promises is an error. `frangible::internals` promises nothing.
 pub(crate) fn semver(revision: Option<&str>) -> Result<Vec<String>> {
     let Some(revision) = revision.map(String::from).or_else(last_version) else {
-        let line = "semver: there is no tag of a version yet, so there is nothing to keep to";
+        let line = "semver: there is no version tag yet, so there is nothing to compare with";
         println!("{line}");
         return Ok(vec![line.into()]);
     };
@@ -27,7 +27,7 @@ pub(crate) fn semver(revision: Option<&str>) -> Result<Vec<String>> {
         words.extend(["--package", name.as_str()]);
     }
     announced(&mut cargo(&words))?;
-    Ok(vec![format!("semver: keeps to what {revision} offers")])
+    Ok(vec![format!("semver: compatible with {revision}")])
 }
 
 /// The last tag of a version before the current commit.

@@ -39,7 +39,7 @@ const DRIVER_FOLDERS: [&str; 3] = [
 pub(crate) fn setup() {
     if !succeeds("cargo", &["nextest", "--version"]) {
         println!(
-            "note: `cargo xtask test --fast` needs cargo-nextest: `cargo install cargo-nextest --locked` gets it"
+            "note: `cargo xtask test --fast` needs cargo-nextest; install it with `cargo install cargo-nextest --locked`"
         );
     }
     if !cfg!(target_os = "linux") {
@@ -47,14 +47,14 @@ pub(crate) fn setup() {
     }
     if !has_vulkan_driver() {
         let advice = format!(
-            "no Vulkan driver was found, pictures cannot be drawn: install `{DRIVER}` (Debian, Ubuntu: `sudo apt-get install {DRIVER}`)"
+            "no Vulkan driver was found, so pictures cannot be drawn: install `{DRIVER}` (Debian, Ubuntu: `sudo apt-get install {DRIVER}`)"
         );
         install(&[DRIVER], &advice);
     }
     if !succeeds("Xvfb", &["-help"]) {
         let packages = DISPLAY.join(" ");
         let advice = format!(
-            "Xvfb is missing, the viewer's window is not tested: install `xvfb` (Debian, Ubuntu: `sudo apt-get install {packages}`)"
+            "Xvfb is missing, so the viewer's window is not tested: install `xvfb` (Debian, Ubuntu: `sudo apt-get install {packages}`)"
         );
         install(&DISPLAY, &advice);
     }

@@ -76,7 +76,7 @@ fn run_examples() -> impl Iterator<Item = &'static str> {
 pub(crate) fn fast() -> Result {
     if !has_nextest() {
         return Err(
-            "the fast tests are chosen by cargo-nextest: `cargo install cargo-nextest --locked` gets it"
+            "the fast tests need cargo-nextest; install it with `cargo install cargo-nextest --locked`"
                 .into(),
         );
     }

@@ -31,7 +31,7 @@ pub(super) fn make(pages: &[Page], linked: &BTreeSet<String>) -> Result<String> 
     }
     if !succeeds("mdbook", &["--version"]) {
         return Ok(format!(
-            "book: not made into HTML: `cargo install mdbook --locked --version {VERSION}` gets mdBook"
+            "book: HTML skipped, because mdBook is missing; install it with `cargo install mdbook --locked --version {VERSION}`"
         ));
     }
     let html = fresh("html")?;
@@ -74,8 +74,7 @@ fn live(folder: &Path) -> Result {
     if made.join("index.html").is_file() {
         return copy(&made, folder);
     }
-    let advice = "<!doctype html>\n<meta charset=\"utf-8\"><title>The viewer</title>\n<p>The viewer's page was not there when this book was made. \
-                  <code>cargo xtask web</code> makes it; then <code>cargo xtask book</code> puts it here.\n";
+    let advice = "<!doctype html>\n<meta charset=\"utf-8\"><title>The viewer</title>\n<p>The web viewer had not been built when this book was made. Build it with <code>cargo xtask web</code>, then run <code>cargo xtask book</code> again.\n";
     put(&folder.join("index.html"), advice)
 }
 

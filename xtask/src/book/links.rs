@@ -27,7 +27,7 @@ pub(super) fn check(pages: &[Page]) -> Result<BTreeSet<String>> {
                 Some(_) => Some(format!("`{file}` has no heading `#{heading}`")),
                 None if !root().join(&file).exists() => Some(format!("there is no `{file}`")),
                 None if file.ends_with(".md") => Some(format!(
-                    "`{file}` is no chapter; name it in book/src/SUMMARY.md"
+                    "`{file}` is not a chapter; add it to book/src/SUMMARY.md"
                 )),
                 None => {
                     files.insert(file);
@@ -39,7 +39,7 @@ pub(super) fn check(pages: &[Page]) -> Result<BTreeSet<String>> {
     }
     match faults.is_empty() {
         true => Ok(files),
-        false => Err(format!("links that lead nowhere:\n{}", faults.join("\n"))),
+        false => Err(format!("broken links:\n{}", faults.join("\n"))),
     }
 }
 

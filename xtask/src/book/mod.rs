@@ -64,7 +64,7 @@ pub(crate) fn book(wish: Wish<'_>) -> Result<Vec<String>> {
             commands += run::page(page, &program, wish == Wish::Write)?;
         }
         lines.push(format!(
-            "book: {commands} commands ran, {options} named options exist, {} pages and {} files that they link are there",
+            "book: {commands} commands ran; {options} options, links on {} pages and {} linked files checked",
             pages.len(),
             linked.len()
         ));

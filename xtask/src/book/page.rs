@@ -126,7 +126,7 @@ impl Page {
             };
             if !runs {
                 return Err(format!(
-                    "{}:{}: nothing runs this block of `{}`; xtask/src/book/mod.rs says which blocks are run",
+                    "{}:{}: this block of `{}` is not run; xtask/src/book/mod.rs lists the blocks that are run",
                     self.path, block.line, block.language
                 ));
             }
@@ -190,7 +190,7 @@ pub(super) fn beside(page: &str, target: &str) -> String {
 
 pub(super) fn text(path: &str) -> Result<String> {
     let bytes = read(&root().join(path))?;
-    String::from_utf8(bytes).map_err(|_| format!("`{path}` is no text in UTF-8"))
+    String::from_utf8(bytes).map_err(|_| format!("`{path}` is not UTF-8 text"))
 }
 
 /// The lines of a text between `ANCHOR: name` and `ANCHOR_END: name`, or all, without such lines themselves.

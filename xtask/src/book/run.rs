@@ -130,7 +130,7 @@ impl<'a> Place<'a> {
             status => {
                 let what = match status {
                     Some(_) => "failed",
-                    None => "took too long and was stopped",
+                    None => "exceeded its time limit and was stopped",
                 };
                 Err(format!(
                     "{}:{line}: `{words}` {what}; it printed\n{}",

@@ -40,7 +40,7 @@ pub(super) fn compare(page: &Page, block: &Block<'_>, shown: &Shown<'_>, printed
     let end = (shown.line, "");
     let (number, line) = shown.output.get(index).unwrap_or(&end);
     let advice = match block.is("whole") {
-        true => "; `cargo xtask book --write` writes it anew",
+        true => "; `cargo xtask book --write` updates it",
         false => "",
     };
     Err(format!(

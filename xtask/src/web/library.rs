@@ -28,7 +28,7 @@ pub(super) fn library(folders: &Folders, target: &str) -> Result<Library> {
     if rustlib.join(target).join("lib").is_dir() {
         return Ok(Library::Installed);
     }
-    println!("the toolchain has no standard library for {target}: it is built");
+    println!("the toolchain has no standard library for {target}; building it");
     if rustlib.join("src/rust/library/Cargo.lock").is_file() {
         return Ok(Library::Sources(None));
     }
@@ -41,7 +41,7 @@ pub(super) fn library(folders: &Folders, target: &str) -> Result<Library> {
     if !kept.join("Cargo.lock").is_file() {
         fetch(folders, release, &kept).map_err(|problem| {
             format!(
-                "{problem}; `rustup target add {target}` or `rustup component add {PACKAGE}` does as well"
+                "{problem}; alternatively, run `rustup target add {target}` or `rustup component add {PACKAGE}`"
             )
         })?;
     }
@@ -56,9 +56,9 @@ fn said(program: &str, arguments: &[&str]) -> Result<String> {
 /// Fetches the sources of a release from the Debian mirror that this machine uses, checked by its keys. Nothing is installed.
 fn fetch(folders: &Folders, release: &str, kept: &Path) -> Result {
     if !succeeds("apt-get", &["--version"]) || !succeeds("dpkg-deb", &["--version"]) {
-        return Err("there is no apt-get to fetch its sources with".into());
+        return Err("apt-get was not found, which is needed to fetch its sources".into());
     }
-    let sources = sources().ok_or("apt's sources name no Debian archive")?;
+    let sources = sources().ok_or("the apt sources list no Debian archive")?;
     let apt = folders.target.join("apt");
     for folder in ["parts", "lists/partial", "cache/archives/partial"] {
         make_folder(&apt.join(folder))?;
@@ -105,7 +105,7 @@ fn downloaded(apt: &Path) -> Result<PathBuf> {
         .filter(|path| path.extension().is_some_and(|ending| ending == "deb"));
     packages
         .next()
-        .ok_or_else(|| format!("apt-get left no package in `{}`", apt.display()))
+        .ok_or_else(|| format!("apt-get downloaded no package into `{}`", apt.display()))
 }
 
 /// Unpacks the library's part of a package.

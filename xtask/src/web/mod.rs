@@ -130,12 +130,12 @@ fn weigh(out: &Path, packer: &Path, programs: &[Program], bodies: &Bodies) -> Re
     );
     if first > MOST {
         return Err(format!(
-            "{line}; that is more than {} MB: find what made it grow",
+            "{line}; this exceeds the limit of {} MB; find out what grew",
             MOST / 1_000_000
         ));
     }
     let bodies = format!(
-        "web: all bodies {:.2} MB, fetched when they are chosen: {}",
+        "web: all bodies {:.2} MB, fetched on demand: {}",
         megabytes(all),
         each.join(", ")
     );

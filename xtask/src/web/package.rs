@@ -41,7 +41,7 @@ pub(crate) fn package() -> Result<Vec<String>> {
     let Some(browser) = browser() else {
         lines.extend(skipped(
             "npm",
-            "there is no browser to try the examples in",
+            "no browser was found for testing the examples",
         )?);
         return Ok(lines);
     };
@@ -83,7 +83,7 @@ fn make(folders: &Folders) -> Result<(PathBuf, Vec<String>)> {
         println!("{line}");
         if packed > most {
             return Err(format!(
-                "{line}; find what made it grow beyond {most} bytes"
+                "{line}; this exceeds the limit of {most} bytes; find out what grew"
             ));
         }
         lines.push(line);

@@ -62,7 +62,7 @@ pub(super) fn number_of(text: &[u8]) -> Result<u64> {
     let text = String::from_utf8_lossy(text);
     text.trim()
         .parse()
-        .map_err(|_| format!("the packer said `{}`, no size", text.trim()))
+        .map_err(|_| format!("the packer printed `{}` instead of a size", text.trim()))
 }
 
 /// Kind of a build for browsers.
@@ -148,7 +148,7 @@ pub(super) fn same_generator(lock: &Path) -> Result {
         return Ok(());
     }
     Err(format!(
-        "the program is built with {GENERATOR} {program}, the packer with {packer}: name {program} in xtask/web-pack/Cargo.toml"
+        "the program is built with {GENERATOR} {program}, but the packer with {packer}; set {program} in xtask/web-pack/Cargo.toml"
     ))
 }
 

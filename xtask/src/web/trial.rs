@@ -74,7 +74,7 @@ pub(super) fn in_browser(
     keep: fn(&str) -> bool,
 ) -> Result<Vec<String>> {
     let Some(browser) = browser() else {
-        return skipped(step, "there is no browser, or no Node");
+        return skipped(step, "no browser or no Node was found");
     };
     let out = made_folder(folders)?;
     let mut command = Command::new("node");
