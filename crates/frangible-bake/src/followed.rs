@@ -2,7 +2,7 @@
 //!
 //! The others answer the force of the moment statically, q = ξ F/λ: a mode much faster than the blow does just that, and costs
 //! no time steps. So the number depends on the blow. A hard one is assumed: a steel ball of a tenth of the body's mass
-//! with a radius of 10 mm at 5 m/s, Hertz' duration on a flat place, a half-sine of force inwards along the normal. A softer or
+//! with a radius of 10 mm at 5 m/s, Hertz's duration on a flat place, a half-sine of force inwards along the normal. A softer or
 //! slower one lasts longer, and needs fewer.
 //! A body with [branches](has_branches) is hit by a ball of a tenth of a branch: the branch and not the body resists at its end, so
 //! that the contact is shorter and excites more modes. Of twelve arms, twelve modes are one bending of each.

@@ -1,8 +1,8 @@
-//! Numbers that cannot be used.
+//! Range errors.
 
 use thiserror::Error;
 
-/// A number given by the caller that is out of its range.
+/// A number that is out of range.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 #[error("{what} is {value}{}{unit}; it must be {must}", if unit.is_empty() { "" } else { " " })]
 pub struct OutOfRange {
@@ -10,9 +10,9 @@ pub struct OutOfRange {
     pub what: &'static str,
     /// The value given.
     pub value: f64,
-    /// Its unit; empty where it has none.
+    /// Unit of the quantity; empty if it has none.
     pub unit: &'static str,
-    /// Its range.
+    /// Valid range.
     pub must: &'static str,
 }
 
@@ -22,10 +22,10 @@ impl OutOfRange {
     /// The range of a crushing pressure.
     pub const CRUSHING_PRESSURE: &'static str = "10 kPa or more, and may be infinite";
 
-    /// Checks a number that has no unit.
+    /// Checks a number without a unit.
     ///
     /// # Errors
-    /// The number, unless it `fits`.
+    /// An error about the number, unless `fits` is true.
     pub fn unless(
         fits: bool,
         what: &'static str,

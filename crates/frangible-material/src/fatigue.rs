@@ -1,27 +1,27 @@
-//! Strength that falls with the time that a load lasts.
+//! Static fatigue: decrease of strength with the duration of a load.
 
 use crate::error::{OutOfRange, positive};
 
-/// Static fatigue: in air, flaws of glass and ceramics grow slowly under a load that lasts, `da/dt ∝ K^n`.
+/// Static fatigue: in air, flaws of glass and ceramics grow slowly under a sustained load, `da/dt ∝ K^n`.
 ///
-/// A flaw of strength R, where no time passes, has after a constant tension σ of duration t a strength S of
-/// `S^(n−2) = R^(n−2) − σ^n t / B` (S. M. Wiederhorn, J. Am. Ceram. Soc. 50 (1967) 407; inert strengths: A. G. Evans, Int. J. Fracture 10 (1974) 251), and fails
-/// where σ passes it. B follows from a test at a constant rate whose strength is known beside the inert one.
+/// A flaw of inert strength R has, after a constant tension σ of duration t, the strength S with
+/// `S^(n−2) = R^(n−2) − σ^n t / B` (S. M. Wiederhorn, J. Am. Ceram. Soc. 50 (1967) 407; inert strengths: A. G. Evans, Int. J. Fracture 10 (1974) 251), and
+/// fails if σ exceeds it. B follows from the strength in a test at a constant stress rate and the inert strength.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fatigue {
     /// Exponent n, above 2: soda-lime glass 16, porcelain 20 to 40.
     pub exponent: f64,
-    /// Rate at which the stress rose in the slow test, Pa/s.
+    /// Stress rate of the slow strength test, Pa/s.
     pub rate: f64,
-    /// Inert strength over that of the slow test, above 1.
+    /// Inert strength over the strength in the slow test, above 1.
     pub increase: f64,
 }
 
 impl Fatigue {
-    /// Checks every number, naming the one at fault.
+    /// Checks every number.
     ///
     /// # Errors
-    /// The first number that is out of its range.
+    /// The first number that is out of range.
     pub fn validate(&self) -> Result<(), OutOfRange> {
         let Self {
             exponent,
@@ -42,7 +42,7 @@ impl Fatigue {
         )
     }
 
-    /// Constant tension that a flaw of this inert strength, Pa, fails at after `duration`, s, over that strength; `material`: the inert strength of the
+    /// Returns the constant tension at which a flaw fails after `duration`, s, over its inert `strength`, Pa. `material`: inert strength of the
     /// specimens of the slow test, Pa.
     #[must_use]
     pub fn left_after(&self, duration: f64, strength: f64, material: f64) -> f64 {

@@ -1,6 +1,6 @@
-//! The material of a brittle body: [`Material`], and materials by name as [`Preset`]s with their sources.
+//! Materials of brittle bodies: [`Material`], and named [`Preset`]s with their sources.
 //!
-//! It is a crate of its own because a table of published numbers is no part of the computation of a break.
+//! A separate crate, so that the table of published values is not part of the fracture model.
 
 mod error;
 mod fatigue;

@@ -15,27 +15,26 @@ pub struct Material {
     pub poisson_ratio: f64,
     /// Density ρ, kg/m³.
     pub density: f64,
-    /// Rayleigh damping α, s: multiplies the **stiffness**, kills high frequencies `[G12 Table 1]`.
+    /// Rayleigh damping α, s: multiplies the **stiffness** and damps high frequencies most `[G12 Table 1]`.
     pub stiffness_damping: f64,
     /// Rayleigh damping β, 1/s: multiplies the **mass** `[G12 Table 1]`.
     pub mass_damping: f64,
-    /// Tensile strength R_c, Pa: the principal tension that starts a crack at a weak point `[G12 §4.4]`.
+    /// Tensile strength R_c, Pa: the principal tensile stress that starts a crack at a weak point `[G12 §4.4]`.
     pub strength: f64,
-    /// Fracture energy G_c, J/m²: cost of crack area `[G12 Eq. 11]`.
+    /// Fracture energy G_c, J/m²: energy per crack area `[G12 Eq. 11]`.
     pub fracture_energy: f64,
-    /// Depth γ of the material whose strain energy feeds a crack's surface in the paper's model, m `[G12 Eq. 12]`. The default model has no use for it.
+    /// Depth γ of the layer whose strain energy drives a crack in the paper's model, m `[G12 Eq. 12]`. Not used by the default model.
     pub energy_depth: f64,
-    /// Weak points per m³; raising it lets more cracks start.
+    /// Density of weak points, 1/m³; a higher value lets more cracks start.
     pub weak_point_density: f64,
-    /// Branching constant over the toughness K_Ic, 1: a crack that has run a distance r splits in two where the tension σ across it is so
-    /// large that σ √r is this many times K_Ic. Infinite where cracks never split.
+    /// Branching constant in units of the toughness K_Ic, dimensionless: a crack that has run a distance r under the tension σ branches if
+    /// σ √r reaches this multiple of K_Ic. Infinite if cracks never branch.
     pub branching_constant: f64,
     /// Amplitude of the roughness of crack surfaces, m.
     pub roughness_amplitude: f64,
     /// Wavelength of the roughness of crack surfaces, m.
     pub roughness_wavelength: f64,
-    /// Pressure p that crushes the material under a contact, or makes it flow there, Pa: its hardness. Infinite where no pressure of a contact
-    /// does.
+    /// Crushing pressure p, Pa: the contact pressure, or hardness, at which the material crushes or flows. Infinite if it does neither.
     pub crushing_pressure: f64,
     /// Coefficient of restitution of the material against a hard surface, 0..=1.
     pub restitution: f64,
@@ -44,13 +43,14 @@ pub struct Material {
 }
 
 impl Material {
-    /// Lowest [`crushing_pressure`](Self::crushing_pressure), Pa: a softer material, such as snow, is pressed for longer than a blow is followed.
+    /// Lowest allowed [`crushing_pressure`](Self::crushing_pressure), Pa. Contacts with softer materials, such as snow, outlast the simulated time of a
+    /// blow.
     pub const LEAST_CRUSHING_PRESSURE: f64 = 1e4;
 
-    /// Checks every number, naming the one at fault.
+    /// Checks every number.
     ///
     /// # Errors
-    /// The first field that is not finite or out of its range.
+    /// The first field that is not finite or out of range.
     pub fn validate(&self) -> Result<(), OutOfRange> {
         positive("Young's modulus", self.youngs_modulus, "Pa")?;
         positive("density", self.density, "kg/m³")?;
@@ -80,8 +80,8 @@ impl Material {
         OutOfRange::unless(fits, "restitution", e, OutOfRange::RESTITUTION)
     }
 
-    /// Sets another tensile strength, Pa. The flaws are others then, so the energy depth is derived again:
-    /// `γ = 16 E G_c / R_c²`, 0.25 m at most, as for every [preset](Material::presets).
+    /// Sets the tensile strength, Pa. Because the flaw size changes, the energy depth is derived again:
+    /// `γ = 16 E G_c / R_c²`, at most 0.25 m, as for every [preset](Material::presets).
     #[must_use]
     pub fn with_strength(self, strength: f64) -> Self {
         let depth = energy_depth(self.youngs_modulus, self.fracture_energy, strength);
@@ -92,9 +92,9 @@ impl Material {
         }
     }
 
-    /// Sets another fracture energy, J/m². The flaws stay the same, and so does the energy depth, which is a
-    /// length of the flaws. The tension that starts a crack at a flaw of given length grows with the root of the toughness (Griffith), so
-    /// the strength is multiplied by the root of the ratio of the fracture energies.
+    /// Sets the fracture energy, J/m². The flaw size and the energy depth, which is proportional to it, stay the same. The strength of a flaw of
+    /// given size grows with the square root of the fracture energy (Griffith), so the strength is multiplied by the square root of the ratio of
+    /// the fracture energies.
     #[must_use]
     pub fn with_fracture_energy(self, fracture_energy: f64) -> Self {
         Self {
@@ -104,8 +104,8 @@ impl Material {
         }
     }
 
-    /// Depth of the flaw that a strength R, Pa, belongs to, m: `a = (K_Ic / Y R)² / π` (Griffith 1921), for this fracture energy, J/m², and a long,
-    /// shallow flaw, Y = 1.12.
+    /// Returns the flaw depth for a strength R, Pa, and a fracture energy, J/m², in m: `a = (K_Ic / Y R)² / π` (Griffith 1921) for a long, shallow
+    /// flaw, Y = 1.12.
     #[must_use]
     pub fn flaw_depth(&self, fracture_energy: f64, strength: f64) -> f64 {
         let toughness_squared = fracture_energy * self.contact_modulus();

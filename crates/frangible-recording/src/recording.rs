@@ -19,7 +19,7 @@ use glam::{Quat, Vec3};
 /// | contacts of pieces | [`RecordedTouch`] | each pair, or a thing and the floor, at its deepest point | in the step in which they came together: an impulse, no F(t) |
 ///
 /// Left out are touches that change the speed of the lighter body by less than 2 cm/s, slides that lose less than 0.1 mW, velocities, and contacts at
-/// rest. An impact that a bound has refused unseen has no blow: it is a touch. Where F(t) is missing, sound takes the duration of Hertz' law. Modes
+/// rest. An impact that a bound has refused unseen has no blow: it is a touch. Where F(t) is missing, sound takes the duration of Hertz's law. Modes
 /// and materials belong to the bodies: the maker of a recording hands them on beside it (`frangible_scenes::Sounding`).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Recording {

@@ -1,86 +1,87 @@
-//! Switches and numbers of the fracture model.
+//! Settings of the fracture model.
 
 use crate::error::InputError;
 use crate::material::OutOfRange;
 
-/// Settings for turning an impact into cracks. `Default` is our model; [`FractureConfig::as_in_the_paper`] is the paper's.
+/// Settings of the fracture model. `Default` is the extended model; [`FractureConfig::as_in_the_paper`] is the paper's.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct FractureConfig {
     /// Contact duration model. Default: [`DurationModel::Integrated`].
     pub duration: DurationModel,
-    /// Lengthens a contact whose impulse and duration are given until the body's vibration holds no more energy than the impact
-    /// brought. Default: off; a blow that is integrated has no need of it.
+    /// Lengthens a contact with given impulse and duration until the body's vibration has no more energy than the impact supplied.
+    /// Default: off, because an integrated blow does not need it.
     pub admissible_duration: bool,
-    /// Lets modes that are not followed through time answer the force statically, as the residual vector. Default: on; in the paper
-    /// they are left out.
+    /// Includes the static response of the modes that are not integrated through time, as the residual vector. Default: on. The paper
+    /// omits these modes.
     pub residual: bool,
-    /// Near field of contacts on walls: the stress right under them that no mode shows, and the wall's compliance there
-    /// ([`near_field`](crate::internals::near_field)). Default: that of an elastic layer; in the paper there is none.
+    /// Theory for the near field of contacts on walls: the local stress and compliance under a contact that the modes do not resolve
+    /// ([`near_field`](crate::internals::near_field)). Default: elastic layer. The paper has no near field.
     pub near_field: Option<PlateTheory>,
-    /// Limits the energy that all cracks of an impact spend together to its peak strain energy. Default: on.
+    /// Limits the total energy of all cracks of an impact to its peak strain energy. Default: on.
     pub energy_ledger: bool,
-    /// Passes over times and places whose stress bound stays below the strength; what breaks, and how, is the same bit for
-    /// bit without, only slower. Default: on.
+    /// Skips time steps and places whose stress bound stays below the strength. Affects only speed: the result is bit-identical
+    /// without it. Default: on.
     pub culling: bool,
-    /// Samples per period of the highest mode that matters; 2 is Nyquist's limit, 0.5 is `[G12 Eq. 3]` as printed.
-    /// Above 0.1 and at most 1000. Default 8: between samples stress is taken as linear.
+    /// Time steps per period of the highest relevant mode; 2 is the Nyquist limit, 0.5 is `[G12 Eq. 3]` as printed.
+    /// Above 0.1 and at most 1000. Default 8. Stress is interpolated linearly between time steps.
     pub samples_per_period: f64,
     /// Timing of the cracks. Default: [`CrackTiming::TimeResolved`].
     pub timing: CrackTiming,
     /// Path of the cracks. Default: [`CrackPath::Steered`].
     pub path: CrackPath,
-    /// Takes Green and Lagrange's strain, with its quadratic terms `[G12 §4.4]`. Default: off, strain is linear. Modes move every point along
-    /// a straight line, so where a thin body swings they turn it and stretch it at once: a turn of 0.03 is a stretch of 5e-4, which is
-    /// the strength of glass. The quadratic terms count that stretch, the linear strain does not.
+    /// Uses the Green–Lagrange strain with its quadratic terms `[G12 §4.4]`. Default: off, strain is linear. Modes move every point along a
+    /// straight line, so a rotation in a swinging thin body comes with a spurious stretch: a rotation of 0.03 stretches by 5e-4, the failure
+    /// strain of glass. The quadratic terms include that stretch, the linear strain does not.
     pub green_lagrange: bool,
-    /// Puts a weak point whose tetrahedron has a free outer face on that face, where no traction acts; strengths are then those of
-    /// surfaces. Default: on; in the paper it lies at the tetrahedron's centre `[G12 §4.4]`.
+    /// Places a weak point on the free outer face of its tetrahedron, if it has one, where no traction acts, so that strengths are
+    /// surface strengths. Default: on. In the paper it lies at the centre of the tetrahedron `[G12 §4.4]`.
     pub surface_flaws: bool,
-    /// Lets a weak point stand for a flaw of the size that Griffith's criterion gives for its strength, and feel the mean stress over it. Default:
-    /// on; in the paper it is a point `[G12 §4.4]`.
+    /// Gives each weak point the flaw size that follows from its strength by Griffith's criterion, and averages the stress over that flaw.
+    /// Default: on. In the paper it is a point `[G12 §4.4]`.
     pub sized_flaws: bool,
-    /// Assumes plane stress in walls of one layer of tetrahedra: no traction acts through them. Default: on; in the paper stress is
-    /// what the modes' mesh says, noise across the wall included.
+    /// Assumes plane stress, without traction through the thickness, in walls that are one layer of tetrahedra thick. Default: on. The
+    /// paper uses the stress of the analysis mesh, including its noise through the thickness.
     pub plane_stress_walls: bool,
-    /// Makes the tetrahedron where a crack starts pay for its own area. Default: on; `[G12 Algorithm 2]` does not ask.
+    /// Applies the energy criterion also to the tetrahedron where a crack starts. Default: on. `[G12 Algorithm 2]` does not.
     pub first_element_pays: bool,
-    /// Feeds a crack's front by Griffith's energy for the crack's present size and the tension across it: a cracked body is weaker.
-    /// Default: on; in the paper a front is fed by the strain energy of a layer of depth γ, for cracks of all sizes.
+    /// Uses Griffith's energy release rate for the current size of a crack and the tension across it, so that a cracked body is weaker.
+    /// Default: on. The paper uses the strain energy of a layer of depth γ for cracks of all sizes.
     pub griffith_fronts: bool,
-    /// Lets cracks branch: at a fork, where a crack has run far enough under enough tension, and behind a crack that another one has met and that
-    /// opens from the other face of a wall. Default: on; the paper's never do.
+    /// Lets cracks branch: at a fork, when a crack has run far enough under sufficient tension, and behind another crack that opens from the
+    /// opposite face of a wall. Default: on. Cracks in the paper never branch.
     pub branching: bool,
-    /// Ends a crack also inside what it meets, so that no bridge of one tetrahedron holds pieces together. Default: on;
-    /// in the paper it stops at the face `[G12 §5.2.4]`.
+    /// Extends a crack into the crack that it meets, so that no bridge of one tetrahedron connects the pieces. Default: on. In the paper
+    /// it stops at the face `[G12 §5.2.4]`.
     pub ends_inside: bool,
-    /// Time for which a resting load has lasted, s: glass that holds for a second may not hold for a year
-    /// ([`Fields::fatigue`](crate::internals::Fields::fatigue)). Zero or more. Default 1. Blows are over before it matters.
+    /// Assumed duration of sustained loads, s: with static fatigue, glass that holds for a second may fail within a year
+    /// ([`Fields::fatigue`](crate::internals::Fields::fatigue)). Zero or more. Default 1. Has no effect on blows.
     pub load_duration: f64,
-    /// Share of the body's volume below which a piece stays with the neighbour it shares most area with. Default 2e-4.
+    /// Smallest volume of a piece as a share of the body's volume; a smaller piece stays with the neighbour with the largest common
+    /// area. Default 2e-4.
     pub crumb_share: f64,
 }
 
 /// Plate theory for waves that are short against the wall's thickness.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum PlateTheory {
-    /// Thin plates: no shear, stress linear through the wall. For comparison with closed forms.
+    /// Kirchhoff's thin plate: no shear, stress linear through the thickness. For comparison with closed-form solutions.
     Kirchhoff,
-    /// Mindlin's frequencies, and the stress of an elastic layer's far face.
+    /// Mindlin's frequencies, and the stress on the far face of an elastic layer.
     #[default]
     Layer,
 }
 
-/// Contact duration models, theory in `contact/duration.rs`.
+/// Models of the contact duration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum DurationModel {
-    /// None: striker, Hertz' spring and the body's vibration are integrated together, and duration, force, impulse and
-    /// restitution are outcomes ([`blow`](crate::internals::blow)).
+    /// Integrates striker, Hertz contact spring and body vibration together; duration, force, impulse and restitution are results
+    /// ([`blow`](crate::internals::blow)).
     Integrated,
-    /// Hertz' law for the two bodies, local curvatures and effective masses `[G12 Eq. 1]`.
+    /// Hertz's law with the local curvatures and effective masses of the two bodies `[G12 Eq. 1]`.
     Hertz,
-    /// The most excited mode in Hertz' law, with consistent dimensions `[G12 Eq. 2, corrected]`.
+    /// Hertz's law for the most excited mode, with consistent dimensions `[G12 Eq. 2, corrected]`.
     ModalHertz,
     /// `[G12 Eq. 2]` as printed; `c` in m^(1/5) s^(2/5).
     AsPrinted {
@@ -93,10 +94,10 @@ pub enum DurationModel {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum CrackTiming {
-    /// A crack runs its whole length the moment it starts, breadth-first, and no crack feels another `[G12 §5]`; ends with
-    /// the contact.
+    /// Each crack runs to its full length, breadth-first, at the moment it starts, without interaction between cracks `[G12 §5]`.
+    /// Initiation ends with the contact.
     Instant,
-    /// Cracks run at a finite speed, and release waves that they send out unload the material beside them.
+    /// Cracks run at a finite speed and emit release waves that unload the adjacent material.
     TimeResolved {
         /// Crack speed over the Rayleigh wave speed. Default 0.5.
         speed: f64,
@@ -107,12 +108,12 @@ pub enum CrackTiming {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum CrackPath {
-    /// A plane with noise, fixed when the crack starts `[G12 Eq. 6-10]`; it enters every neighbour that it crosses, even
-    /// where it misses the face between them `[G12 §5.2.2]`.
+    /// A noisy plane, fixed when the crack starts `[G12 Eq. 6-10]`. The crack enters every neighbour that the plane crosses, even if
+    /// it misses the face between them `[G12 §5.2.2]`.
     Planar,
-    /// A plane that turns as it goes until no shear acts across it.
+    /// A plane that turns as the crack grows, until no shear acts across it.
     Steered {
-        /// Length over which the crack turns fully, m. Default 0.0067.
+        /// Length over which the crack turns completely, m. Default 0.0067.
         turning_length: f64,
     },
 }
@@ -146,10 +147,10 @@ impl Default for FractureConfig {
 }
 
 impl FractureConfig {
-    /// Checks that every number can be used. All loads ask it first.
+    /// Checks every number. All load functions call it first.
     ///
     /// # Errors
-    /// Names the first field that is out of its range, and the range.
+    /// The first field that is out of range, with its range.
     pub fn validate(&self) -> Result<(), InputError> {
         let samples = self.samples_per_period;
         OutOfRange::unless(
@@ -209,9 +210,9 @@ impl FractureConfig {
         self.duration == DurationModel::Integrated || self.residual || self.near_field.is_some()
     }
 
-    /// Settings for given impulses: our cracks under half-sines of the engine's impulses, which last as long as Hertz' law says and longer where they
-    /// brought in too much energy. Only the modes that are followed answer, and a weak point feels the stress there in place of the mean over its
-    /// flaw. For what a GPU can take over, and where the blow itself is not the question.
+    /// Settings for given impulses: the extended crack model under half-sine forces with the engine's impulses, whose duration follows Hertz's law
+    /// and is lengthened if they supply too much energy. Only the modes integrated through time respond, and the stress is taken at the weak
+    /// point instead of averaged over its flaw. Use it on the GPU, or when the contact itself need not be resolved.
     #[must_use]
     pub fn with_given_impulses() -> Self {
         Self {
@@ -225,8 +226,8 @@ impl FractureConfig {
         }
     }
 
-    /// The paper's model: modal duration, instant planar cracks that start freely at the centres of elements and stop at the
-    /// face of another, no energy correction.
+    /// The paper's model: modal contact duration; instantaneous planar cracks that start at element centres and stop at the face of
+    /// another crack; no energy correction.
     #[must_use]
     pub fn as_in_the_paper() -> Self {
         Self {

@@ -17,15 +17,15 @@ use crate::outcome::{Fracture, ImpactReport, LookedAt, Outcome};
 use crate::refuse;
 use crate::trace::CrackTrace;
 
-/// Computes the outcome of an impact on a body. Nothing is changed; the caller replaces a broken body by its fragments.
+/// Computes the outcome of an impact on a body. The body itself is not changed; the caller replaces a broken body by its fragments.
 ///
 /// `contacts` are all contacts of this impact on this body, in its body frame (origin at the centre of mass).
-/// The modes are those of the unbroken body, the single basis of `[G12 §7.3.1]`. Pieces that part during a blow that is followed with the body
-/// move on their own, which changes its motion. A contact far below the strength, which is nearly every one, costs a look at the closest surface
+/// The modes are those of the unbroken body, the single basis of `[G12 §7.3.1]`. In an integrated blow, pieces that separate move
+/// independently, which changes the motion of the body. Most contacts are far below the strength; these cost a lookup of the closest surface
 /// triangle, seldom O(modes), and no allocation.
 ///
 /// # Errors
-/// A contact with a NaN, a negative impulse or no direction; what [`FractureConfig::validate`] refuses.
+/// A contact with NaN, a negative impulse or no direction; the errors of [`FractureConfig::validate`].
 pub fn impact(
     body: &Body,
     contacts: &[Contact],
@@ -37,11 +37,11 @@ pub fn impact(
     })
 }
 
-/// [`impact()`] with a trace of its cracks, element by element: for tests and for the comparison with the paper. No bound free of time
-/// refuses it: its motion is followed, and the report has the steps.
+/// Like [`impact()`], with a trace of the cracks element by element, for tests and the comparison with the paper. The motion is always
+/// computed over time, so the report has the time steps of harmless impacts too.
 ///
 /// # Errors
-/// What [`impact()`] refuses.
+/// The errors of [`impact()`].
 pub fn impact_traced(
     body: &Body,
     contacts: &[Contact],
@@ -55,10 +55,10 @@ pub fn impact_traced(
     Ok((outcome, trace.unwrap_or_default()))
 }
 
-/// Returns true if an impact would break a body into pieces: [`impact`] without making them.
+/// Returns true if an impact would break a body into pieces. Like [`impact`], but without making the pieces.
 ///
 /// # Errors
-/// What [`impact()`] refuses.
+/// The errors of [`impact()`].
 pub fn would_break(
     body: &Body,
     contacts: &[Contact],

@@ -1,18 +1,18 @@
 //! Real-time, physically based brittle fracture: contacts in, closed fragments with exact masses out.
 //!
-//! A tour, in the order of the data:
-//! - [`Asset`]: what a bake (crate `frangible-bake`) makes of a shape and a [`Material`]: a fine mesh of linear
-//!   tetrahedra for cracks, a coarse one of quadratic tetrahedra for the vibration modes, and how they fit together;
-//! - [`Breakable`]: an asset that has been checked and prepared, shared by all bodies of a kind; [`Body`]: one of them, with its own
-//!   seed and weak points;
-//! - [`Contact`]: where, how hard and by what a body is hit, as a rigid-body engine knows it;
+//! The main types, in the order of the data:
+//! - [`Asset`]: a shape and a [`Material`], baked by the crate `frangible-bake`: a fine mesh of linear tetrahedra for cracks, a
+//!   coarse mesh of quadratic tetrahedra for the vibration modes, and the mapping between them;
+//! - [`Breakable`]: a checked and prepared asset, shared by all bodies of a kind; [`Body`]: one such body, with its own seed and
+//!   weak points;
+//! - [`Contact`]: position, direction, strength and striker of a hit, as reported by a rigid-body engine;
 //! - [`impact()`]: the pipeline, after Glondu, Marchal, Dumont, *Real-Time Simulation of Brittle Fracture Using Modal
 //!   Analysis*, IEEE TVCG 2012, cited as `[G12]`;
-//! - [`Outcome`]: held, or broken into [`Fragment`]s, with an [`ImpactReport`].
+//! - [`Outcome`]: the body held, or broke into [`Fragment`]s, with an [`ImpactReport`].
 //!
-//! [`FractureConfig`] holds the switches; its default goes beyond the paper, [`FractureConfig::as_in_the_paper`] does not.
-//! [`internals`] has the rest; its names may change in any release.
-//! Everything is in SI units and in the body frame (origin at the centre of mass). The same input gives the same bits.
+//! [`FractureConfig`] holds the settings: its default extends the paper's model, [`FractureConfig::as_in_the_paper`] reproduces it.
+//! [`internals`] exports everything else; its names may change in any release.
+//! All quantities are in SI units and in the body frame (origin at the centre of mass). The same input gives bit-identical results.
 
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 

@@ -18,22 +18,22 @@ pub use crate::fragment::Fragment;
     reason = "a refused contact must not allocate"
 )]
 pub enum Outcome {
-    /// The body stays one piece.
+    /// The body did not break.
     Held {
-        /// Strength over the bound of the stress: above 1 nothing happened, and the larger it is, the farther the body was from cracking. At or
-        /// below 1 the stress passed the strength at a weak point; cracks that part nothing may have run.
+        /// Strength over an upper bound of the stress. Above 1 no crack started, with more reserve the larger it is. At or below 1 the stress
+        /// exceeded the strength at a weak point, and cracks may have run without separating any piece.
         margin: f64,
         /// Report of the impact.
         report: ImpactReport,
-        /// All cracks of the body so far, if some ran that part nothing: for [`Body::set_state`](crate::Body::set_state).
+        /// All cracks of the body so far, if this impact added any; pass it to [`Body::set_state`](crate::Body::set_state).
         state: Option<Box<BodyState>>,
     },
-    /// The body is now these fragments.
+    /// The body broke into these fragments.
     Broke(Box<Fracture>),
 }
 
 impl Outcome {
-    /// The report of the impact, whatever came of it.
+    /// Report of the impact.
     #[must_use]
     pub fn report(&self) -> &ImpactReport {
         match self {
@@ -56,7 +56,7 @@ pub struct Fracture {
 }
 
 impl Fracture {
-    /// A break whose pieces came about elsewhere: they do not break again.
+    /// Makes a break from pieces that were computed elsewhere. They cannot break again.
     #[must_use]
     pub fn new(fragments: Vec<Fragment>, report: ImpactReport) -> Self {
         Self {
@@ -66,7 +66,7 @@ impl Fracture {
         }
     }
 
-    /// Returns true if the fragments have [velocities of their own](crate::Fragment::velocity): pieces parted while the blow was followed.
+    /// Returns true if the fragments have [velocities of their own](crate::Fragment::velocity), because pieces separated during an integrated blow.
     #[must_use]
     pub fn moves_apart(&self) -> bool {
         let mut fragments = self.fragments.iter();
@@ -74,31 +74,30 @@ impl Fracture {
     }
 }
 
-/// Level of detail at which an impact was decided, from the cheapest.
+/// Stage at which an impact was decided, from the cheapest to the most expensive.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum LookedAt {
-    /// Places, sizes and durations of its impulses: one number per place was enough to refuse it.
+    /// A bound from the positions, sizes and durations of the impulses ruled out cracks.
     Sizes,
-    /// Largest effect of its impulses, as long as they act, on each mode: a bound free of time refused it, of the whole body or
-    /// of all its parts.
+    /// A time-independent bound from the largest effect of the impulses on each mode ruled out cracks, in the whole body or in each part.
     #[default]
     Impulses,
-    /// The amplitudes of the modes over time: a bound of the whole body refused every time step.
+    /// A bound for the whole body from the modal amplitudes ruled out cracks in every time step.
     Amplitudes,
-    /// The amplitudes, and bounds of parts of the body: they refused every time step.
+    /// Bounds for the clusters of the body from the modal amplitudes ruled out cracks in every time step.
     Clusters,
-    /// Stresses at weak points.
+    /// Stresses at weak points were computed.
     Stresses,
 }
 
-/// Numbers of one impact, SI units.
+/// Results of an impact, in SI units.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct ImpactReport {
-    /// Contact duration t_d used, s.
+    /// Contact duration t_d, s.
     pub contact_duration: f64,
-    /// Hertz' duration of the contact on a rigid, free body, s; in the models that lengthen it, the duration before that.
+    /// Hertz contact duration for a rigid, free body, s; in models that lengthen the duration, the value before lengthening.
     pub unadjusted_duration: f64,
     /// Frequency of the most excited mode, Hz.
     pub most_excited_frequency: f64,
@@ -106,71 +105,70 @@ pub struct ImpactReport {
     pub time_step: f64,
     /// Number of time steps evaluated.
     pub time_steps: usize,
-    /// Largest principal tension met at a weak point, Pa. Points whose bound stays below the strength are not looked
-    /// at: 0 when that is all of them; see `stress_bound`.
+    /// Largest principal tensile stress computed at a weak point, Pa. Points whose bound stays below the strength are skipped, so it is 0 if
+    /// all are; see `stress_bound`.
     pub peak_stress: f64,
-    /// Place of that tension, m, body frame: the centre of the weak point's tetrahedron.
+    /// Position of that stress, m, body frame: the centre of the weak point's tetrahedron.
     pub peak_point: Option<Vec3>,
-    /// Upper bound of the tension at each weak point, Pa, before a crack cut it or its piece came to rest.
+    /// Upper bound of the tensile stress at all weak points, Pa, until a crack cuts the point or its piece comes to rest.
     pub stress_bound: f64,
     /// Level of detail at which the impact was decided.
     pub looked_at: LookedAt,
-    /// Tensile strength R_c it is compared with, Pa: where it varies over the body, that of the weakest weak point.
+    /// Tensile strength R_c, Pa; if it varies over the body, that of the weakest weak point.
     pub strength: f64,
-    /// Largest kinetic energy that the contacts can take from the bodies' motion against each other, J. If a bound refused the impact,
-    /// or impulses are given: the energy that these impulses take, Σ ½ φ v / (1 + e).
+    /// Largest kinetic energy that the contacts can take from the relative motion of the bodies, J. If a bound decided the impact, or impulses
+    /// are given, the energy that these impulses take, Σ ½ φ v / (1 + e).
     pub approach_energy: f64,
     /// Largest modal (kinetic + elastic) energy at a time step, J.
     pub peak_elastic_energy: f64,
-    /// Largest strain energy at a time step, J: with the ledger, the most that all cracks together may spend.
+    /// Largest strain energy at a time step, J; with the energy ledger, the limit of the total energy of all cracks.
     pub peak_strain_energy: f64,
     /// Fracture energy Σ A G_c, J.
     pub fracture_energy: f64,
-    /// Area of new cracks and of the growth of old ones (one side), m².
+    /// Area of new cracks and of the growth of old cracks (one side), m².
     pub crack_area: f64,
     /// Number of cracks that started.
     pub cracks: usize,
-    /// Number of these that branched off another crack at a fork.
+    /// Number of cracks that branched off another crack at a fork.
     pub forks: usize,
     /// Number of weak points of the body.
     pub weak_points: usize,
-    /// Time of the first crack after the contact began, s.
+    /// Time of the first crack since the start of the contact, s.
     pub first_crack_time: Option<f64>,
-    /// Place where the first crack began, m, body frame.
+    /// Position where the first crack started, m, body frame.
     pub first_crack_point: Option<Vec3>,
     /// Volume of all fragments over the volume of the body, minus one.
     pub volume_error: f64,
-    /// Fractured tetrahedra, and the times at which the crack reached them, s after the contact began: crack after crack of those that this
-    /// impact moved, each in the order of its growth.
+    /// Fractured tetrahedra and their arrival times, s since the start of the contact: one list per crack that this impact extended, in the
+    /// order of growth.
     pub arrivals: Vec<Vec<(u32, f64)>>,
-    /// Report of each contact, where the blow was integrated.
+    /// Report of each contact, if the blow was integrated.
     pub contacts: Vec<ContactReport>,
-    /// Energy that the blow brought into the body, where the blow was integrated.
+    /// Energy balance of the blow, if it was integrated.
     pub blow_energy: BlowEnergy,
     /// Wall-clock time of each stage.
     pub timings: StageTimings,
 }
 
-/// Energy that a blow brings into a body, and what becomes of it, J. The work less what damping takes is kept: as strain and vibration, and as motion
-/// of pieces.
+/// Energy balance of a blow, J: the work less `damped`, `faces` and `released` is `kept`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct BlowEnergy {
     /// Work of the contacts on the vibration of the body and on its pieces, friction included.
     pub work: f64,
-    /// Energy that damping takes while contacts push.
+    /// Energy dissipated by damping until the contacts part.
     pub damped: f64,
-    /// Energy that the faces of pieces lose when they close and press while contacts push.
+    /// Energy dissipated where crack faces close and press on each other, until the contacts part.
     pub faces: f64,
-    /// Energy that is lost when pieces part while contacts push: of those that are too small, by then, to move on their own.
+    /// Motion of pieces that become too small to move on their own, until the contacts part.
     pub released: f64,
     /// Energy of the vibration and of the pieces when the contacts part.
     pub kept: f64,
-    /// Kinetic energy of the pieces that have parted, against the rigid motion of the whole body, at the end.
+    /// Kinetic energy of the separated pieces relative to the rigid motion of the whole body, at the end.
     pub pieces: f64,
 }
 
-/// Wall-clock times of the stages of one impact, s. Not deterministic; all else is.
+/// Wall-clock times of the stages of an impact, s. The only non-deterministic output.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct StageTimings {
@@ -180,11 +178,11 @@ pub struct StageTimings {
     pub stress: f64,
     /// Crack initiation and growth.
     pub cracks: f64,
-    /// Search for connected pieces, in the end and at times during the motion of a blow.
+    /// Search for connected pieces, at the end and at intervals during the blow.
     pub labels: f64,
-    /// Partition, surfaces, masses.
+    /// Partition, surfaces and masses of the fragments.
     pub fragments: f64,
-    /// Render meshes, for a body with a surface of its author's.
+    /// Render meshes, for a body with an authored surface.
     pub drawing: f64,
 }
 

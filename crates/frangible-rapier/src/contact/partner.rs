@@ -60,7 +60,7 @@ fn curvature_at(body: &Body, point: Vector) -> f32 {
 }
 
 /// Two breakable bodies meet: how the other one vibrates under each contact, for blows that are integrated, and how long it answers, for
-/// the models that ask. Hertz' law has both bodies in it already, and a blow that is refused without them asks for no modes.
+/// the models that ask. Hertz's law has both bodies in it already, and a blow that is refused without them asks for no modes.
 pub(super) fn answer(
     impact: &mut Impact,
     (body, itself): (&RigidBody, &Body),

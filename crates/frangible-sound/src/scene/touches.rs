@@ -123,7 +123,7 @@ fn side(
     })
 }
 
-/// Hertz' duration, s, of a collision of a mass, kg, at a speed, m/s, of two bodies, or of one with the floor: 2.87 (m²/(E*² R v))^{1/5}.
+/// Hertz's duration, s, of a collision of a mass, kg, at a speed, m/s, of two bodies, or of one with the floor: 2.87 (m²/(E*² R v))^{1/5}.
 fn hertz(
     mass: f64,
     speed: f64,

@@ -1,4 +1,4 @@
-//! Baked assets: the immutable data that the run time needs, one value per kind of object.
+//! Baked assets: the immutable data of a kind of object.
 
 mod bounds;
 mod embedding;
@@ -30,12 +30,12 @@ pub(crate) use portion::{FOREIGN, FixedPoints, NOBODY, Trace};
 pub use rescale::{RescaleError, SMALLEST_CURVATURE_RADIUS, scaled, with_material};
 pub(crate) use validate::{analysis, embedded, modes};
 
-/// Everything the run time needs of one kind of object. Share it (`Arc`) among all bodies of that kind.
+/// The baked data of one kind of object. Share it (`Arc`) among all bodies of that kind.
 ///
 /// All positions are in the **body frame**: metres, origin at the centre of mass.
 ///
-/// A piece that may break again has an asset of its own, which shares the fracture mesh of the body it came from: see
-/// [`Asset::portion`] for what differs.
+/// A piece that can break again has its own asset, which shares the fracture mesh of its parent body; [`Asset::portion`] describes the
+/// differences.
 #[derive(Clone, Debug)]
 pub struct Asset {
     /// Name shown in reports.
@@ -56,15 +56,15 @@ pub struct Asset {
     pub bounds: StressBounds,
     /// Mass, centre (the origin) and inertia of the whole body, kg, m, kg·m².
     pub mass: MassProperties,
-    /// Convex cells that cover the body: the collider of the whole, shared out among fragments.
+    /// Convex cells that cover the body: its collider, which is divided among the fragments.
     pub cells: Vec<ConvexCell>,
     /// Convex cell of each fracture tetrahedron: one index into [`Asset::cells`] per tetrahedron.
     pub cell_of_tet: Vec<u32>,
-    /// Nodes of the fracture mesh that something outside holds, rising; empty for a free body. The modes are those of
-    /// the body held there, and a fragment with such a node stays where it is.
+    /// Nodes of the fracture mesh that are fixed by supports, ascending; empty for a free body. The modes are those of the supported body,
+    /// and a fragment with such a node stays in place.
     pub supported: Vec<u32>,
-    /// The surface as its author drew it, kept for drawing and for clipping; physics never reads it.
-    /// `None` where the fracture mesh's own surface is all there is.
+    /// The authored surface, used only for rendering and clipping, never for physics. `None` if the surface of the fracture mesh is
+    /// rendered.
     pub render: Option<RenderSurface>,
     /// For a piece that may break again, its part of the broken body; `None` for a baked body. A piece keeps the broken
     /// body's fracture mesh, in that body's frame; its surface has vertices of its own, in the piece's frame
@@ -74,7 +74,7 @@ pub struct Asset {
 }
 
 impl Asset {
-    /// Returns true if something outside holds the body: a pane in its frame, a shelf in its wall.
+    /// Returns true if the body has supports, such as a pane in its frame or a shelf in a wall.
     #[must_use]
     pub fn is_supported(&self) -> bool {
         !self.supported.is_empty()
@@ -85,7 +85,7 @@ impl Asset {
         libm::cbrt(self.mass.volume * 0.75 / std::f64::consts::PI)
     }
 
-    /// The baked asset: this one, or for a piece that of the body it came from.
+    /// The baked asset: this one, or for a piece the asset of its parent body.
     #[must_use]
     pub fn root(&self) -> &Self {
         match &self.portion {
@@ -137,7 +137,7 @@ pub struct OuterSurface {
     pub triangles: Vec<[u32; 3]>,
     /// Tetrahedron behind each triangle.
     pub tets: Vec<u32>,
-    /// Unit normals at the three corners: smooth, but for sharp edges.
+    /// Unit normals at the three corners: smooth except at sharp edges.
     pub normals: Vec<[Vec3; 3]>,
     /// Radius of curvature where a contact touches this triangle, m; infinite where flat.
     pub curvature_radius: Vec<f32>,
@@ -145,18 +145,18 @@ pub struct OuterSurface {
     pub walls: SurfaceWalls,
 }
 
-/// Thin walls behind the outer surface: the stress right under a contact depends on them, and no mode shows it
-/// (`near_field`). One number per triangle of the surface in each list; all lists are empty for a body without walls.
+/// Thin walls behind the outer surface, for the local stress under a contact that the modes do not resolve (`near_field`). Each list has
+/// one number per surface triangle; all lists are empty for a body without walls.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SurfaceWalls {
-    /// Thickness of the wall, m; infinite where the body is no wall.
+    /// Thickness of the wall, m; infinite if there is no wall.
     pub thickness: Vec<f32>,
     /// Stiffening of the wall by its curvature against bending waves of all directions, 1/m²: the mean over the angle θ of
     /// (κ₁ sin²θ + κ₂ cos²θ)², κ₁ and κ₂ the principal curvatures of the wall's middle surface. 1/R² of a dome, 3/(8R²) of a
     /// tube, 0 of a flat wall.
     pub stiffening: Vec<f32>,
-    /// Distance along the wall to its nearest edge, m, where it ends, is held, folds, or is a third thicker or thinner; infinite
-    /// where it has none.
+    /// Distance along the wall to its nearest edge, m: its end, a support, a fold, or a change of thickness by a third; infinite without an
+    /// edge.
     pub margin: Vec<f32>,
 }
 

@@ -4,7 +4,7 @@
 //! and nothing adds to it: springs, modes and wall oscillators, also those of a striker that vibrates, are at rest before the blow and only store,
 //! pass on and lose energy. A script does add to it, so no limit is known if scripts push beside strikers. The forces do not feel what friction
 //! moves. So the limits need no modes, and hold with and without those of a striker:
-//! - Hertz' spring of a contact never holds more than T: its force stays below that at which it holds T;
+//! - Hertz's spring of a contact never holds more than T: its force stays below that at which it holds T;
 //! - the impulses J of the contacts so far have left the approach v − B J, which holds at most T as well. So `½ Jᵀ B J ≤ 4 T`, and so
 //!   `J_k ≤ √(8 T (B⁻¹)_kk)`. If no contact's push helps another (all of B ≥ 0), `J_k ≤ √(8 T / B_kk)`, which is less; for a single contact this
 //!   is `2 v / B`.

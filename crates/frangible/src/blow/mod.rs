@@ -2,7 +2,7 @@
 //!
 //! # Idea
 //!
-//! The force and the duration of a contact follow from the two bodies: from the striker's mass, Hertz' spring between them, and the
+//! The force and the duration of a contact follow from the two bodies: from the striker's mass, Hertz's spring between them, and the
 //! motion of the struck body under the force, rigid and vibrating. No pulse is prescribed: the striker arrives with its speed, and force,
 //! duration, impulse and restitution are results. A wall that absorbs the blow lets the striker drop; a brick throws it back.
 //!
@@ -14,12 +14,12 @@
 //!
 //! where y is the displacement of the striker relative to the rigid motion of the body, B the inverse masses of the rigid bodies at the contacts,
 //! with rotation, q the amplitudes of the followed modes and, on a wall, of the wall oscillators (`near_field`), c the residual compliance of the
-//! modes and waves left out, and `K = 4/3 E* √R` the stiffness of Hertz' spring, which yields where the pressure under it crushes the weaker body
+//! modes and waves left out, and `K = 4/3 E* √R` the stiffness of Hertz's spring, which yields where the pressure under it crushes the weaker body
 //! (`spring.rs`). F is linear over each substep, so every oscillator is stepped exactly. The new forces solve one equation per contact, which has
 //! exactly one root, as the left side falls with F and the right side grows.
 //!
 //! A breakable striker vibrates too. The contact feels it in the same way ([`Receptance`]): its modes, its wall oscillators and its residual
-//! compliance are driven by the same F_k and subtracted from the gap with the body's. St Venant's two rods and Hertz' two spheres are limits of it.
+//! compliance are driven by the same F_k and subtracted from the gap with the body's. St Venant's two rods and Hertz's two spheres are limits of it.
 //!
 //! Friction follows the normal force: the body is pushed along n + f, f the ratio of the engine's friction and normal impulse. The force itself does
 //! not feel friction: q in the first equation is the response to the normal forces alone, as y is the striker's displacement under them alone. A
@@ -40,7 +40,7 @@
 //! bodies that both vibrate find the same force, whichever of them is computed, as long as they meet nothing else and neither has broken: the blow on
 //! the body contains no other contacts of the striker, and no softening by the striker's own cracks.
 //!
-//! Forces are linear over substeps of a hundredth of Hertz' time (a four-hundredth where both bodies vibrate), every oscillator is stepped
+//! Forces are linear over substeps of a hundredth of Hertz's time (a four-hundredth where both bodies vibrate), every oscillator is stepped
 //! exactly, and one equation per contact and substep has one root. Steps after the blow are as long as the modes allow.
 
 mod accounts;

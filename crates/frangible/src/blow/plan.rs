@@ -12,11 +12,11 @@ use crate::body::Body;
 use crate::config::{DurationModel, FractureConfig};
 use crate::contact::{self, Contact, Load, Receptance, Touch, modal_load};
 
-/// Hertz' time over the longest substep. Measured: the energy error then is 3e-5 of what the striker loses (`frangible-lab verify`, case
+/// Hertz's time over the longest substep. Measured: the energy error then is 3e-5 of what the striker loses (`frangible-lab verify`, case
 /// `blow`), and falls with the square of the substep.
 const SUBSTEPS_PER_HERTZ_TIME: f64 = 100.0;
 
-/// Hertz' time over the longest substep where both bodies vibrate: each integrates the blow for itself, and both must find the same impulse.
+/// Hertz's time over the longest substep where both bodies vibrate: each integrates the blow for itself, and both must find the same impulse.
 /// Measured: the impulses differ by less than 1e-5 of it, and with a hundred substeps by 7e-5.
 const SUBSTEPS_OF_PAIRS: f64 = 400.0;
 
@@ -30,7 +30,7 @@ pub(super) struct Site {
     pub(super) spring: Spring,
     /// A script's impulse, N·s, and duration, s, instead of a striker.
     pub(super) script: Option<[f64; 2]>,
-    /// Expected duration of the contact, s: Hertz' time, or the script's.
+    /// Expected duration of the contact, s: Hertz's time, or the script's.
     pub(super) duration: f64,
     pub(super) near: Option<NearPlan>,
     /// φ · (n + f) of every mode that follows the force, 1/√kg; only the part along the wall for those that the near field stands for.

@@ -13,10 +13,10 @@ use crate::contact::{Contact, Receptance, Striker, Touch, WallReceptance, modal_
 use crate::error::InputError;
 use crate::near_field::{Bands, Spacing};
 
-/// Angular frequency times Hertz' time from which on waves follow the force.
+/// Angular frequency times Hertz's time from which on waves follow the force.
 const FOLLOWING: f64 = 120.0;
 
-/// Angular frequency times Hertz' time up to which a blow makes waves ring. Up to there wall oscillators are evenly spaced.
+/// Angular frequency times Hertz's time up to which a blow makes waves ring. Up to there wall oscillators are evenly spaced.
 const RINGING: f64 = 25.0;
 
 /// Time of the wall oscillators' echo over the expected duration of the blow, which sets their spacing.

@@ -40,7 +40,7 @@ impl Blow {
         last.map_or(0.0, |i| (i / count + 1) as f64 * self.substep())
     }
 
-    /// Shortest expected duration of the contacts, s: Hertz' time, or a script's duration.
+    /// Shortest expected duration of the contacts, s: Hertz's time, or a script's duration.
     pub(crate) fn expected_duration(&self) -> f64 {
         let times = self.plan.sites.iter().map(|s| s.duration);
         times.fold(f64::INFINITY, f64::min)

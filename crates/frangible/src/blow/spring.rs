@@ -1,8 +1,8 @@
-//! The spring between two bodies that touch at a point: Hertz' until the weaker body is crushed.
+//! The spring between two bodies that touch at a point: Hertz's until the weaker body is crushed.
 //!
-//! Hertz' pressure is largest in the middle of the disc that touches. Once it reaches the pressure p that the weaker body can bear there, that body
+//! Hertz's pressure is largest in the middle of the disc that touches. Once it reaches the pressure p that the weaker body can bear there, that body
 //! is crushed, or flows, and no place is pressed harder: the force grows by `π p R` per dent, as the disc does (C. Thornton, J. Appl. Mech. 64 (1997)
-//! 383). A crushed place does not come back. When the force falls, the bodies part along Hertz' spring of the dent that was made, which is flatter
+//! 383). A crushed place does not come back. When the force falls, the bodies part along Hertz's spring of the dent that was made, which is flatter
 //! than what made it and holds less energy. Crushing has taken the difference.
 
 use std::f64::consts::PI;
@@ -53,7 +53,7 @@ impl Spring {
         )
     }
 
-    /// Dent δ of Hertz' spring, m, under a force, N.
+    /// Dent δ of Hertz's spring, m, under a force, N.
     fn elastic_dent(&self, force: f64) -> f64 {
         libm::cbrt(force.max(0.0) / self.stiffness).powi(2)
     }
@@ -114,7 +114,7 @@ impl Spring {
         (self.energy(largest) - 0.4 * largest * (self.dent(largest) - left)).max(0.0)
     }
 
-    /// Dent that is left, m, and K of Hertz' spring in it, N/m^1.5, after the largest force, N, has crushed a body. This spring bears the largest
+    /// Dent that is left, m, and K of Hertz's spring in it, N/m^1.5, after the largest force, N, has crushed a body. This spring bears the largest
     /// force on the same disc.
     fn of_dented(&self, largest: f64) -> (f64, f64) {
         let dent = self.dent(largest);
@@ -145,7 +145,7 @@ impl Spring {
     }
 
     /// Factor by which crushing lengthens the blow of a mass, kg, at a speed, m/s, on a rigid wall: ratio of the times to the deepest dent with
-    /// crushing and with Hertz' spring alone. Crushed bodies part faster than they met, so it is an upper bound; 1 if nothing is crushed.
+    /// crushing and with Hertz's spring alone. Crushed bodies part faster than they met, so it is an upper bound; 1 if nothing is crushed.
     #[must_use]
     pub(crate) fn stretch(&self, mass: f64, speed: f64) -> f64 {
         let energy = 0.5 * mass * speed * speed;
@@ -203,7 +203,7 @@ struct Loading {
     time: f64,
 }
 
-/// The force F ≥ 0 of Hertz' spring at which `(F/K)^(2/3) + compliance F = gap`, N; see [`Spring::force`].
+/// The force F ≥ 0 of Hertz's spring at which `(F/K)^(2/3) + compliance F = gap`, N; see [`Spring::force`].
 fn hertz_force(stiffness: f64, gap: f64, compliance: f64, root: &mut f64) -> f64 {
     if gap <= 0.0 {
         return 0.0;
@@ -289,7 +289,7 @@ mod tests {
         let spring = |pressure| Spring::crushed_at(pressure, 9e9, radius);
         assert_eq!(spring(f64::INFINITY).stretch(mass, speed), 1.0);
         assert_eq!(spring(1e12).stretch(mass, speed), 1.0);
-        // Where nearly all is crushed the spring is linear, and Hertz' takes 1.47 δ / v to its deepest dent.
+        // Where nearly all is crushed the spring is linear, and Hertz's takes 1.47 δ / v to its deepest dent.
         let linear = 0.5 * PI * (mass / (PI * pressure * radius)).sqrt();
         let hertz = spring(f64::INFINITY);
         let deepest = hertz.dent(hertz.force_of_energy(0.5 * mass * speed * speed));

@@ -1,4 +1,4 @@
-//! Breakable bodies: the data shared by all bodies of a kind, and each body's own.
+//! Breakable bodies: the shared data of a kind, and the data of each body.
 
 mod edges;
 mod flaw;
@@ -25,7 +25,7 @@ use crate::tips::{CrackFront, Tip, fronts, tips};
 pub(crate) use mesh_index::MeshIndex;
 pub(crate) use prepared::Prepared;
 
-/// An asset that has been checked and prepared: one per kind of object, cheap to clone, shared by its bodies.
+/// A kind of breakable object: a checked and prepared asset, cheap to clone and shared by all its bodies.
 #[derive(Clone, Debug)]
 pub struct Breakable {
     asset: Arc<Asset>,
@@ -38,7 +38,7 @@ impl Breakable {
     /// Checks an asset and prepares it.
     ///
     /// # Errors
-    /// When the asset's arrays do not fit together, or a number of its material is unusable.
+    /// The arrays of the asset are inconsistent, or a number of its material is invalid.
     pub fn new(asset: impl Into<Arc<Asset>>) -> Result<Self, InputError> {
         let asset = asset.into();
         asset.validate()?;
@@ -56,10 +56,10 @@ impl Breakable {
         }
     }
 
-    /// The kind of the same asset with strength, toughness and weak points that vary over the body: scored lines, painted weakness.
+    /// Returns this kind with locally varying strength, toughness and density of weak points, for scored lines or painted weakness.
     ///
     /// # Errors
-    /// Fields of another asset, or with a number that cannot be used.
+    /// Fields of another asset, or with an invalid number.
     pub fn with_fields(self, fields: Fields) -> Result<Self, InputError> {
         fields.check(&self.asset)?;
         let fields = Arc::new(fields);
@@ -70,10 +70,10 @@ impl Breakable {
         })
     }
 
-    /// The kind of the same body `factor` times as large, with the same fields.
+    /// Returns this kind scaled by `factor`, with the same fields.
     ///
     /// # Errors
-    /// What [`scaled`](crate::internals::asset::scaled) refuses.
+    /// The errors of [`scaled`](crate::internals::asset::scaled).
     pub fn scaled(&self, factor: f64) -> Result<Self, RescaleError> {
         let asset = scaled(&self.asset, factor)?;
         let kind = Self::of_sound(Arc::new(asset));
@@ -86,7 +86,7 @@ impl Breakable {
         &self.asset
     }
 
-    /// Strength, toughness and weak points that vary over its bodies, and the scatter of their strength.
+    /// Locally varying strength, toughness and density of weak points, and the scatter of strength.
     #[must_use]
     pub fn fields(&self) -> &Fields {
         &self.fields
@@ -98,7 +98,7 @@ impl Breakable {
         &self.prepared.bounds
     }
 
-    /// A body of this kind; `seed` decides its weak points.
+    /// Makes a body of this kind; `seed` selects its weak points.
     ///
     /// Weak points are a Poisson process of the material's density (1/m³): a tetrahedron of volume V is weak
     /// with probability 1 − exp(−density V).
@@ -139,7 +139,7 @@ impl Breakable {
     }
 }
 
-/// A body that may break: shares its asset with its like, has its own seed, weak points and cracks.
+/// A breakable body: a shared asset, and its own seed, weak points and cracks.
 #[derive(Clone, Debug)]
 pub struct Body {
     pub(crate) asset: Arc<Asset>,
@@ -159,15 +159,15 @@ pub struct Body {
 }
 
 impl Body {
-    /// A body of this asset. For many bodies of one asset make the [`Breakable`] once: the checks are in it.
+    /// Makes a body of this asset. For many bodies of one asset, make one [`Breakable`], which performs the checks only once.
     ///
     /// # Errors
-    /// What [`Breakable::new`] refuses.
+    /// The errors of [`Breakable::new`].
     pub fn new(asset: Arc<Asset>, seed: u64) -> Result<Self, InputError> {
         Ok(Breakable::new(asset)?.body(seed))
     }
 
-    /// Its asset: meshes, modes and material.
+    /// The asset: meshes, modes and material.
     #[must_use]
     pub fn asset(&self) -> &Arc<Asset> {
         &self.asset
@@ -179,20 +179,20 @@ impl Body {
         self.seed
     }
 
-    /// Number of breaks behind it: 0 as it was made, 1 for a piece of it, 2 for a piece of that.
+    /// Number of breaks that led to this body: 0 for an original body, 1 for a piece of it, 2 for a piece of that piece.
     #[must_use]
     pub fn generation(&self) -> u32 {
         self.asset.portion.as_ref().map_or(0, |p| p.generation())
     }
 
-    /// The point of its surface nearest to a point, m, body frame.
+    /// Returns the point of the surface nearest to `point`, m, body frame.
     #[doc(hidden)]
     #[must_use]
     pub fn nearest_on_surface(&self, point: Vec3) -> SurfacePoint {
         self.prepared.surface.closest(point)
     }
 
-    /// Its centre of mass in the frame of the fracture mesh, m: zero but for pieces.
+    /// Centre of mass in the frame of the fracture mesh, m; zero except for pieces.
     #[must_use]
     pub fn origin(&self) -> DVec3 {
         match &self.asset.portion {
@@ -246,8 +246,8 @@ impl Body {
         self
     }
 
-    /// This body with its strength times `factor` (above 0) and its toughness unchanged: shows the stress that a blow would bring
-    /// on a body that does not crack.
+    /// Returns this body with its strength multiplied by `factor` (above 0) and its toughness unchanged. A large factor shows the stress of a
+    /// blow in a body that does not crack.
     #[must_use]
     pub fn strengthened(&self, factor: f32) -> Self {
         Self {
@@ -279,23 +279,23 @@ impl Body {
         }
     }
 
-    /// The cracks it has so far.
+    /// The current cracks of the body.
     #[must_use]
     pub fn state(&self) -> &BodyState {
         &self.state
     }
 
-    /// The fronts of the cracks it has so far, in the order of its state; cracks that run out everywhere have none.
+    /// The fronts of the current cracks, in the order of the state. Cracks that end at a surface everywhere have none.
     #[must_use]
     pub fn crack_fronts(&self) -> Vec<CrackFront> {
         fronts(&self.asset, &self.state, &self.tips)
     }
 
-    /// Gives it the cracks that an impact left ([`Outcome::Held`](crate::Outcome::Held)), or that were saved: the next impact
-    /// finds them.
+    /// Sets the cracks of the body, from an impact ([`Outcome::Held`](crate::Outcome::Held)) or from a saved state. Later impacts
+    /// take them into account.
     ///
     /// # Errors
-    /// A state that is not of a body of this asset.
+    /// A state that does not belong to a body of this asset.
     pub fn set_state(&mut self, state: BodyState) -> Result<(), InputError> {
         state.check(&self.asset)?;
         self.tips = tips(&self.asset, &state);
@@ -303,26 +303,26 @@ impl Body {
         Ok(())
     }
 
-    /// Its weak fracture tetrahedra, ascending: cracks start only there `[G12 §4.4]`.
+    /// Indices of the weak fracture tetrahedra, ascending. Cracks start only there `[G12 §4.4]`.
     #[must_use]
     pub fn weak_tets(&self) -> &[u32] {
         &self.weak_tets
     }
 
-    /// R_c that the stress must pass for a crack to start in a fracture tetrahedron, Pa.
+    /// Strength R_c of a fracture tetrahedron, Pa: a crack starts there if the stress exceeds it.
     #[must_use]
     pub fn strength(&self, tet: u32) -> f32 {
         self.resistance.strength(tet)
     }
 
-    /// G_c that a crack must pay in a fracture tetrahedron, J/m².
+    /// Fracture energy G_c of a fracture tetrahedron, J/m².
     #[must_use]
     pub fn toughness(&self, tet: u32) -> f64 {
         self.resistance.toughness.of(tet)
     }
 
-    /// Point at which the stress of a weak tetrahedron is taken, and the law of stress there: at its flaw on the free surface, else at its
-    /// centroid. `pressed`: surface triangles that something presses on, whose flaws do not count.
+    /// Returns the point at which the stress of a weak tetrahedron is evaluated, and the stress law there: its flaw on the free surface, or
+    /// else its centroid. `pressed`: surface triangles under a contact, whose flaws are ignored.
     #[must_use]
     pub fn weak_place(
         &self,
@@ -335,7 +335,7 @@ impl Body {
         (place.point, place.law)
     }
 
-    /// Smallest strength of its weak tetrahedra, Pa; the material's where there is none.
+    /// Smallest strength of the weak tetrahedra, Pa; the strength of the material if there are none.
     #[must_use]
     pub fn weakest(&self) -> f64 {
         self.resistance.weakest

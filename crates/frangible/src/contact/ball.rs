@@ -1,7 +1,7 @@
 //! First touch of a ball and a body.
 //!
-//! Engines find contacts on convex parts that stand for the body, and some of them on parts around the one that is hit, millimetres off
-//! and with tilted normals. A ball is simple enough to ask the body's own surface.
+//! Engines find contacts on the convex parts of the collider, sometimes on parts beside the one that is hit, millimetres off and with
+//! tilted normals. For a ball, the exact contact with the body's surface is simple to compute.
 
 use glam::Vec3;
 
@@ -13,9 +13,10 @@ const TOUCHES: f32 = 1e-4;
 /// Steps towards the surface, each as long as the gap: enough for a ball that comes at a slant of six degrees.
 const MOST_STEPS: usize = 100;
 
-/// Returns the place at which a ball of this radius, m, whose centre moves with `velocity`, m/s, against the body first touches its surface within
-/// `time`, s, and the unit direction from its centre to that place; all in the body frame. A ball that touches already touches at the nearest point.
-/// None if it comes too late, or its centre is on the surface.
+/// Returns the point at which a moving ball first touches the body's surface, and the unit direction from its centre to that point.
+///
+/// The ball has this radius, m; its centre moves with `velocity`, m/s, relative to the body. All values are in the body frame. A ball that
+/// already touches the body touches at the nearest point. Returns `None` if there is no contact within `time`, s, or the centre is on the surface.
 #[must_use]
 pub fn first_touch_of_ball(
     body: &Body,

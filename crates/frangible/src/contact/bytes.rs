@@ -1,4 +1,4 @@
-//! A contact as bytes: with the body's seed all that a break needs to be replayed elsewhere.
+//! Serialization of contacts. A contact and the body's seed suffice to replay a break elsewhere.
 
 use std::sync::Arc;
 
@@ -14,11 +14,11 @@ const NUMBERS: usize = Contact::BYTES / 4;
 const OWN: usize = NUMBERS - 8;
 
 impl Contact {
-    /// Length of a contact in bytes, but for what a striker that vibrates adds.
+    /// Length of a contact in bytes, without the receptance of a vibrating striker.
     pub const BYTES: usize = 104;
 
-    /// The contact as bytes: its numbers in the order of the fields, little-endian, four bytes each; then the number of modes of a striker
-    /// that vibrates plus one, or 0, and its receptance in numbers of eight bytes.
+    /// Serializes the contact: its fields in order, little-endian, four bytes each; then 0, or the number of modes of a vibrating striker
+    /// plus one, followed by its receptance with eight bytes per number.
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
         let mut contact = self.clone();
@@ -43,7 +43,7 @@ impl Contact {
     /// Reads what [`Contact::to_bytes`] wrote, and checks it.
     ///
     /// # Errors
-    /// Bytes that are too few or too many, or what [`Contact::validate`] refuses.
+    /// Too few or too many bytes, or the errors of [`Contact::validate`].
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, InputError> {
         match Self::read(bytes)? {
             (contact, []) => Ok(contact),
@@ -51,10 +51,10 @@ impl Contact {
         }
     }
 
-    /// Reads the first of several contacts that follow each other as bytes, and says which bytes are left.
+    /// Reads the first of several consecutive contacts, and returns it with the remaining bytes.
     ///
     /// # Errors
-    /// Bytes that are too few, or what [`Contact::validate`] refuses.
+    /// Too few bytes, or the errors of [`Contact::validate`].
     pub fn read(bytes: &[u8]) -> Result<(Self, &[u8]), InputError> {
         let short = || InputError::ContactBytes(bytes.len());
         let (head, rest) = bytes

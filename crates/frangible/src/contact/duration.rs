@@ -4,8 +4,8 @@
 //! `[G12 Eq. 2]` puts the most excited mode in its place, but as printed its dimensions do not agree;
 //! since m/(E r) is 1/ω² up to a constant, the modal form of Eq. 1 is `t_d = 2.868 (r/(λ² v))^(1/5)`.
 //!
-//! When is which right? A small hard striker on a large body: Hertz (the blow is over before the body's slow modes
-//! answer). A whole body that lands on a soft spot and lasts through its own swing: the modal form.
+//! Range of validity: Hertz for a small hard striker on a large body, because the blow is over before the slow modes respond; the modal
+//! form for a whole body that lands softly, so that the contact lasts through its own oscillation.
 
 use glam::Vec3;
 
@@ -14,7 +14,7 @@ use crate::asset::Asset;
 use crate::body::Body;
 use crate::config::DurationModel;
 
-/// Hertz' constant for the duration of the contact of two spheres.
+/// Hertz's constant for the duration of the contact of two spheres.
 pub(super) const HERTZ: f64 = 2.868;
 
 /// Sharpest radius of a contact, m: edges and corners of real things are rounded or crumble to about this.
@@ -47,8 +47,8 @@ pub fn most_excited_mode(asset: &Asset, modal_shape: &[f64]) -> Option<usize> {
         .max_by(|&i, &j| amplitude(i).total_cmp(&amplitude(j)).then(j.cmp(&i)))
 }
 
-/// Duration that a breakable body answers a contact with, s: the [`Striker::modal_duration`](super::Striker::modal_duration) for the
-/// other body.
+/// Contact duration of a breakable body's own vibration, s: the [`Striker::modal_duration`](super::Striker::modal_duration) that the other
+/// body uses.
 #[must_use]
 pub fn answer_duration(body: &Body, contact: &Contact, model: DurationModel) -> f64 {
     let alone = [Contact {
@@ -116,7 +116,7 @@ pub(crate) fn touch_duration(asset: &Asset, touch: &Touch, model: DurationModel)
     }
 }
 
-/// Hertz' duration of a contact, s, where the body has this radius of curvature, m, and nᵀ K n, 1/kg.
+/// Hertz's duration of a contact, s, where the body has this radius of curvature, m, and nᵀ K n, 1/kg.
 pub(crate) fn hertz_at(
     asset: &Asset,
     contact: &Contact,

@@ -1,4 +1,4 @@
-//! Contacts of an impact, as the rigid-body engine reports them.
+//! Contacts and strikers of an impact.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -11,68 +11,68 @@ use crate::config::DurationModel;
 use crate::error::{InputError, finite, not_negative, positive};
 use crate::material::{Material, OutOfRange};
 
-/// One contact of an impact, in the body frame of the body that may break.
+/// A contact of an impact, in the frame of the body that may break.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contact {
     /// Point of contact, m.
     pub point: Vec3,
     /// Unit direction of the impulse **on this body** (from the striker into the body).
     pub normal: Vec3,
-    /// Magnitude φ of the normal impulse, N·s. Only the models of the duration that are not integrated, and scripts, take it as
-    /// given; of an integrated blow it is an outcome, and this number only says how large friction is in relation to it.
+    /// Magnitude φ of the normal impulse, N·s. It is an input only for scripts and for duration models without integration. For an
+    /// integrated blow the impulse is a result, and this value only sets the ratio of friction to normal impulse.
     pub impulse: f32,
-    /// Friction's part of the impulse on this body, N·s: whatever is not along the normal.
+    /// Frictional part of the impulse on this body, N·s: the component perpendicular to the normal.
     pub friction: Vec3,
-    /// Speed of approach along the normal before the rigid-body step, m/s.
+    /// Approach speed along the normal before the rigid-body step, m/s.
     pub approach_speed: f32,
-    /// Duration of a blow that a script asks for, s: its impulse is then given as a half-sine, whatever strikes. 0 for a striker,
-    /// whose blow is [integrated](crate::internals::DurationModel::Integrated).
+    /// Duration of a scripted blow, s: its impulse is applied as a half-sine, regardless of the striker. 0 for a striker, whose blow is
+    /// [integrated](crate::internals::DurationModel::Integrated).
     pub duration: f32,
-    /// Body that struck.
+    /// The striker.
     pub striker: Striker,
 }
 
-/// Properties of the other body that a contact depends on.
+/// Properties of the striking body that determine a contact.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Striker {
     /// Plane-strain modulus E/(1−ν²), Pa; infinite for a rigid striker.
     pub contact_modulus: f32,
-    /// Pressure that crushes its surface, or dents it for good, Pa ([`Material::crushing_pressure`]); infinite where none does.
+    /// Pressure that crushes or permanently dents its surface, Pa ([`Material::crushing_pressure`]); infinite if none does.
     pub crushing_pressure: f32,
-    /// nᵀ K n of the striker at the contact, 1/kg; zero for one that cannot move.
+    /// Inverse effective mass nᵀ K n of the striker at the contact, 1/kg; zero for an immovable striker.
     pub inverse_effective_mass: f32,
-    /// Radius of curvature at the contact, m; infinite for a flat one.
+    /// Radius of curvature at the contact, m; infinite for a flat striker.
     pub curvature_radius: f32,
     /// Coefficient of restitution of the pair, 0..=1.
     pub restitution: f32,
-    /// Duration that the other body answers with when it vibrates itself, s: of two bodies' durations the longer holds
-    /// `[G12 §4.1]`. Used by the modal models; 0 for a body that is not breakable. See [`answer_duration`](super::answer_duration).
+    /// Contact duration of the striker's own vibration, s; the longer of the durations of both bodies applies `[G12 §4.1]`. Used by the
+    /// modal duration models; 0 for a striker that is not breakable. See [`answer_duration`](super::answer_duration).
     pub modal_duration: f32,
-    /// Share in the mass of a body that strikes at several points; none for a body that strikes at this point only.
+    /// Mass coupling of a striker with several contacts; `None` for a single contact.
     pub shared: Option<SharedMass>,
-    /// Receptance of a striker that vibrates itself, for blows that are [integrated](crate::internals::DurationModel::Integrated);
-    /// none for one that moves as a rigid body behind Hertz' dent. [`Striker::flexible`] finds it.
+    /// Receptance of a vibrating striker, for [integrated](crate::internals::DurationModel::Integrated) blows; `None` for a rigid striker
+    /// with a Hertz contact. Computed by [`Striker::flexible`].
     pub receptance: Option<Arc<Receptance>>,
 }
 
-/// Share of a contact in the mass of a body that strikes at several points: an impulse at one of them moves it at the others too.
+/// Mass coupling between the contacts of a striker that hits at several points: an impulse at one contact moves the striker at the others.
 ///
-/// Let `a = (velocity, spin)` be the body's mass-weighted answer to a unit impulse at a contact. Then a unit impulse at contact l takes
-/// `a_k · a_l` from the speed of approach at contact k of the same body, 1/kg; at its own contact that is
-/// [`Striker::inverse_effective_mass`]. Without this each contact would strike with the whole mass, and the energy of the body would be
-/// counted once per contact.
+/// Let `a = (velocity, spin)` be the mass-weighted response of the striker to a unit impulse at a contact. A unit impulse at contact l
+/// reduces the approach speed at contact k of the same striker by `a_k · a_l`, 1/kg; for k = l this is
+/// [`Striker::inverse_effective_mass`]. Without the coupling each contact would strike with the whole mass, and the energy of the striker
+/// would be counted once per contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SharedMass {
-    /// Number of the body: contacts of one impact with equal numbers are of one body. Below [`SharedMass::MOST_BODIES`].
+    /// Number of the striker: contacts of one impact with equal numbers belong to the same striker. Below [`SharedMass::MOST_BODIES`].
     pub body: u32,
-    /// √M times the velocity that a unit impulse along the contact's normal gives the body, 1/√kg: `M^(−1/2) n`.
+    /// √M times the velocity change by a unit impulse along the contact normal, 1/√kg: `M^(−1/2) n`.
     pub velocity: Vec3,
-    /// √I times the spin that it gives, 1/√kg: `I^(−1/2) (r × n)` for the arm r from the centre of mass.
+    /// √I times the spin change by that impulse, 1/√kg: `I^(−1/2) (r × n)` with the arm r from the centre of mass.
     pub spin: Vec3,
 }
 
 impl SharedMass {
-    /// Upper limit of the numbers of bodies, which are below it.
+    /// Exclusive upper limit of [`SharedMass::body`].
     pub const MOST_BODIES: u32 = 1 << 24;
 
     /// Returns true if this inverse effective mass, 1/kg, is no smaller than its own, but for a per cent of rounding: a body that gave way less at
@@ -82,8 +82,8 @@ impl SharedMass {
         velocity + spin <= 1.01 * inverse_effective_mass
     }
 
-    /// The share of body number `body` in a contact when no impulse moves it: one that is held fast, or that moves as it is told. Its
-    /// contacts still belong together, for it may vibrate.
+    /// Coupling of striker number `body` that no impulse moves, because it is fixed or kinematic. Its contacts still belong together, because
+    /// it may vibrate.
     #[must_use]
     pub fn immovable(body: u32) -> Self {
         Self {
@@ -93,8 +93,8 @@ impl SharedMass {
         }
     }
 
-    /// The share of body number `body` in a contact: `velocity` is its `M^(−1/2) n`, `inverse_inertia` has the columns of its I⁻¹, 1/(kg·m²), and
-    /// `turn` is r × n, all in world axes. Where I⁻¹ does not give way, nor does the spin.
+    /// Coupling of striker number `body`: `velocity` is `M^(−1/2) n`, `inverse_inertia` holds the columns of I⁻¹, 1/(kg·m²), and `turn` is
+    /// r × n, all in world axes. Axes with zero I⁻¹ get no spin.
     #[must_use]
     pub fn of(body: u32, velocity: Vec3, inverse_inertia: [Vec3; 3], turn: Vec3) -> Self {
         // I⁻¹ = L Lᵀ: the square of Lᵀ turn is the part of the spin in the inverse effective mass.
@@ -124,7 +124,7 @@ fn lower_factor(columns: [Vec3; 3]) -> [Vec3; 3] {
 }
 
 impl Striker {
-    /// Radius of curvature of edges and corners, with which bodies that are no balls strike others, m.
+    /// Radius of curvature assumed for striking edges and corners, m.
     pub const EDGE_RADIUS: f32 = 3e-3;
 
     /// Speed of approach that a unit impulse at the contact of `other` takes away at this one, which is another contact, 1/kg.
@@ -138,7 +138,7 @@ impl Striker {
         }
     }
 
-    /// A flat thing that cannot move, of this material: a floor, a wall.
+    /// An immovable flat striker of this material, such as a floor or a wall.
     #[must_use]
     pub fn fixed(material: &Material) -> Self {
         Self {
@@ -153,7 +153,7 @@ impl Striker {
         }
     }
 
-    /// A ball of this mass, kg, and radius, m, hitting centrally.
+    /// A ball of this mass, kg, and radius, m, in a central impact.
     #[must_use]
     pub fn ball(material: &Material, mass: f64, radius: f64) -> Self {
         Self {
@@ -163,7 +163,7 @@ impl Striker {
         }
     }
 
-    /// Rigid, flat and fixed.
+    /// A rigid, flat and immovable striker.
     #[must_use]
     pub const fn rigid() -> Self {
         Self {
@@ -180,8 +180,8 @@ impl Striker {
 }
 
 impl Contact {
-    /// A contact without friction: its point (m), the direction of the impulse on this body, its size (N·s), the speed of approach
-    /// (m/s), and what hit the body.
+    /// A contact without friction, from its point (m), the direction of the impulse on this body, the impulse (N·s), the approach speed
+    /// (m/s) and the striker.
     #[must_use]
     pub const fn new(
         point: Vec3,
@@ -201,7 +201,7 @@ impl Contact {
         }
     }
 
-    /// A half-sine that a script asks for: its point (m), its impulse (N·s, on this body) and its duration (s).
+    /// A scripted half-sine push, from its point (m), its impulse on this body (N·s) and its duration (s).
     #[must_use]
     pub fn script(point: Vec3, impulse: Vec3, duration: f32) -> Self {
         let mut contact = Self::new(point, impulse, impulse.length(), 0.0, Striker::rigid());
@@ -209,7 +209,7 @@ impl Contact {
         contact
     }
 
-    /// Returns true if a script gives its impulse and duration.
+    /// Returns true if the contact is scripted, with given impulse and duration.
     #[must_use]
     pub fn is_script(&self) -> bool {
         self.duration > 0.0
@@ -233,8 +233,8 @@ impl Contact {
         }
     }
 
-    /// A collision of rigid bodies. The striker hits a body of this asset at `point`, m, moving `toward` a direction of any length at
-    /// `speed`, m/s; the impulse is (1 + e) v / (nᵀ K n of both). Without friction; none where neither can move.
+    /// A frictionless rigid-body collision. The striker hits a body of this asset at `point`, m, moving `toward` a direction of any length at
+    /// `speed`, m/s; the impulse is (1 + e) v / (nᵀ K n of both). Returns `None` if neither can move.
     #[must_use]
     pub fn collision(
         asset: &Asset,
@@ -258,7 +258,7 @@ impl Contact {
         Self::new(point, normal, impulse as f32, speed as f32, striker)
     }
 
-    /// The whole impulse on this body, N·s.
+    /// Total impulse on this body, N·s, including friction.
     #[must_use]
     pub fn push(&self) -> Vec3 {
         self.normal.normalize_or_zero() * self.impulse + self.friction
@@ -284,10 +284,10 @@ impl Contact {
         self.is_script() && self.friction != Vec3::ZERO
     }
 
-    /// Checks that every number can be used.
+    /// Checks every number.
     ///
     /// # Errors
-    /// Names the first field that is NaN, negative or not a unit vector.
+    /// The first field that is NaN, negative or not a unit vector.
     pub fn validate(&self) -> Result<(), InputError> {
         finite("a contact's point", self.point)?;
         finite("a contact's normal", self.normal)?;

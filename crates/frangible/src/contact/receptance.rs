@@ -1,13 +1,13 @@
-//! Receptance of a place of a body under a contact, as a sum of modes.
+//! Receptance of a body at a contact point, as a sum over modes.
 //!
-//! A force `F` along the normal `n` moves the place by `Σ (φ_i · n) q_i`, where `q̈_i + d_i q̇_i + λ_i q_i = (φ_i · n) F`. Modes that are not
-//! followed answer at once, `q_i = (φ_i · n) F/λ_i`, and on a wall the wall oscillators go on where the modes end (Zener 1941). The body that
-//! is asked and one that strikes it are described alike, so that one force F(t) comes of a contact whichever of the two is asked.
+//! A force `F` along the normal `n` moves the contact point by `Σ (φ_i · n) q_i`, where `q̈_i + d_i q̇_i + λ_i q_i = (φ_i · n) F`. Modes that
+//! are not integrated through time respond statically, `q_i = (φ_i · n) F/λ_i`, and on a wall the wall oscillators extend the spectrum above
+//! the modes (Zener 1941). Struck body and striker are described alike, so that both get the same force F(t).
 
 use crate::error::InputError;
 use crate::near_field::{PlateTheory, WallMaterial};
 
-/// Receptance of a body that vibrates at a contact, beside its motion as a rigid one.
+/// Receptance of a vibrating body at a contact, in addition to its rigid motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Receptance {
     /// λ of every mode, 1/s².

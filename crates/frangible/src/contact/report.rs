@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-/// Report of one contact of a blow that was integrated: an outcome, not an input.
+/// Results for one contact of an integrated blow.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct ContactReport {
@@ -10,22 +10,22 @@ pub struct ContactReport {
     pub point: Vec3,
     /// Unit direction of the force on this body.
     pub normal: Vec3,
-    /// Impulse along the normal until the contact parted, or the wall or the piece under it was cut free, N·s.
+    /// Impulse along the normal until separation, or until the wall or piece under the contact was cut free, N·s.
     pub impulse: f64,
-    /// Speed of approach, m/s; 0 of a script.
+    /// Approach speed, m/s; 0 for a script.
     pub approach_speed: f64,
     /// Largest force, N.
     pub peak_force: f64,
     /// Duration of the contact, s.
     pub duration: f64,
-    /// Radius of the disc that touched at the peak force, m.
+    /// Radius of the contact area at the peak force, m.
     pub contact_radius: f64,
-    /// Speed at which the striker leaves the body as a rigid one, m/s; negative where it goes on into it. Over the speed of
-    /// approach it is the coefficient of restitution.
+    /// Separation speed of striker and body as rigid bodies, m/s; negative if the striker continues into the body. Divided by the approach
+    /// speed it is the coefficient of restitution.
     pub departure_speed: f64,
-    /// Energy that went into crushing the weaker of the two bodies where they touched, J.
+    /// Energy spent on crushing the weaker of the two bodies at the contact, J.
     pub crushing_energy: f64,
-    /// Volume that was crushed, m³: that energy over the pressure that crushes.
+    /// Crushed volume, m³: the crushing energy over the crushing pressure.
     pub crushed_volume: f64,
     /// Force at the end of each [time step](crate::ImpactReport::time_step), N. It is linear between them, and ends with the last.
     pub force: Vec<f32>,

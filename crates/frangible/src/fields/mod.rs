@@ -1,11 +1,11 @@
-//! Strength, toughness and weak points that vary over a body: factors on its material's numbers, one per fracture
+//! Locally varying strength, toughness and density of weak points: factors on the values of the material, one set per fracture
 //! tetrahedron.
 //!
-//! They come from a function of the place ([`Fields::from_function`]), or from what a surface holds ([`Fields::from_surface`]). Zones,
-//! scored lines and painted vertices are made into them by the module `weakness` of `frangible-bake`.
+//! They are made from a function of position ([`Fields::from_function`]) or from values on a surface ([`Fields::from_surface`]). The module
+//! `weakness` of `frangible-bake` makes them from zones, scored lines and painted vertices.
 //!
-//! Weakness is not baked. The factors belong to a [`Breakable`](crate::Breakable), so that one asset serves scored and plain
-//! bodies; culling compares each cluster with its weakest point.
+//! The factors are not baked. They belong to a [`Breakable`](crate::Breakable), so that scored and plain bodies share an asset; culling
+//! compares each cluster with its weakest point.
 
 mod kink;
 mod resistance;
@@ -21,28 +21,28 @@ use crate::mesh::TriangleTree;
 pub(crate) use kink::Tip;
 pub(crate) use resistance::{Resistance, Toughness};
 
-/// Factors on the material's numbers at a place; 1 leaves them as they are.
+/// Factors on the values of the material at one position; 1 means unchanged.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Factors {
     /// Factor on the tensile strength R_c, above 0.
     pub strength: f32,
     /// Factor on the fracture energy G_c, above 0.
     pub toughness: f32,
-    /// Factor on the density of weak points, 0 or above; where it is 0 no crack starts.
+    /// Factor on the density of weak points, 0 or above; if it is 0, no crack starts.
     pub weak_points: f32,
 }
 
 impl Factors {
-    /// Factors that leave the material as it is.
+    /// Factors of 1: the unchanged material.
     pub const ONE: Self = Self {
         strength: 1.0,
         toughness: 1.0,
         weak_points: 1.0,
     };
 
-    /// This share of the strength, with the toughness of flaws of the same size: G_c ∝ K_Ic² ∝ R_c².
+    /// Scales the strength, and the toughness so that the flaw size stays the same: G_c ∝ K_Ic² ∝ R_c².
     ///
-    /// A crack also has to pay for its area: where the strength alone is low, it is the energy that decides.
+    /// If only the strength is reduced, the energy criterion may still prevent cracks.
     #[must_use]
     pub fn of_strength(strength: f32) -> Self {
         Self {
@@ -53,22 +53,22 @@ impl Factors {
     }
 }
 
-/// Factors on a material's numbers over a body, and the scatter of its strength. `Default` is none: the same everywhere.
+/// Locally varying factors on the values of the material, and the scatter of strength. `Default`: uniform, without scatter.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Fields {
     /// Factors of each fracture tetrahedron; an empty list means one everywhere.
     pub of_tet: Vec<Factors>,
-    /// Modulus m of a Weibull scatter of the strength from one weak point to another, another one for every body's seed. Real glass
-    /// 5 to 10, fine ceramics 10 to 20; lower scatters more. Default 0: no scatter, every weak point has R_c.
+    /// Weibull modulus m of the strength of weak points, drawn per body seed. Glass 5 to 10, fine ceramics 10 to 20; a lower value means
+    /// more scatter. Default 0: no scatter, every weak point has the strength R_c.
     ///
-    /// A tested specimen is as strong as the weakest of its many flaws, so a single flaw is usually much stronger. With a scatter
-    /// R_c is the strength that 63 % of specimens do not survive, and 63 % of single weak points do not survive R_c times the m-th root
-    /// of the number of weak points in a [`specimen`](Self::specimen).
+    /// A test specimen is as strong as the weakest of its many flaws, so a single flaw is usually much stronger. With scatter, R_c is the
+    /// stress at which 63 % of specimens fail; 63 % of single weak points fail at R_c times the m-th root of the number of weak points in a
+    /// [`specimen`](Self::specimen).
     pub weibull_modulus: f64,
-    /// Volume of the specimen whose strength R_c is, where strength scatters, m³. Default 1e-4: a pane of 4 mm with 240 cm² under load.
+    /// Volume of the test specimen with strength R_c, m³; used only with scatter. Default 1e-4: a 4 mm pane with 240 cm² under load.
     pub specimen: f64,
-    /// Fall of the strength with the time that a load lasts. Default: none.
+    /// Static fatigue: decrease of strength with the duration of a load. Default: none.
     pub fatigue: Option<Fatigue>,
 }
 
@@ -84,14 +84,14 @@ impl Default for Fields {
 }
 
 impl Fields {
-    /// Fields that are one everywhere, with the scatter and the fatigue of the strength that the preset of this material's name has
-    /// ([`Preset::weibull_modulus`], [`Preset::fatigue`]); none where no preset has its name.
+    /// Makes uniform fields with the scatter and the fatigue of the preset with this material's name ([`Preset::weibull_modulus`],
+    /// [`Preset::fatigue`]), or without either if there is no such preset.
     #[must_use]
     pub fn of_material(material: &Material) -> Self {
         Self::default().scattered_as(material)
     }
 
-    /// Sets the scatter and the fatigue of the strength to those of the preset of this material's name.
+    /// Sets scatter and fatigue to the values of the preset with this material's name.
     #[must_use]
     pub fn scattered_as(self, material: &Material) -> Self {
         match Preset::named(&material.name) {
@@ -105,7 +105,7 @@ impl Fields {
         }
     }
 
-    /// Factors of the place of each tetrahedron's centre: m, body frame.
+    /// Makes fields by evaluating `factors` at the centre of each tetrahedron, m, body frame.
     #[must_use]
     pub fn from_function(asset: &Asset, factors: impl Fn(Vec3) -> Factors) -> Self {
         let mesh = &asset.fracture;
@@ -116,11 +116,11 @@ impl Fields {
         }
     }
 
-    /// Factors of the point of a surface (m, body frame) that is nearest to each tetrahedron's centre. `factors` is given the vertices of the
-    /// triangle that the point lies on, and their weights.
+    /// Makes fields by evaluating `factors` at the point of a surface (m, body frame) nearest to the centre of each tetrahedron. `factors`
+    /// receives the vertices of the triangle with that point, and their barycentric weights.
     ///
     /// # Errors
-    /// A triangle with a vertex that is not there, a vertex that is not finite, or no triangle at all.
+    /// A triangle with a missing vertex, a vertex that is not finite, or no triangle.
     pub fn from_surface(
         asset: &Asset,
         positions: &[Vec3],

@@ -13,7 +13,7 @@ use crate::outcome::Outcome;
 const RADIUS: f32 = 0.01;
 
 /// Computes the outcome of an impulse (N·s, body frame) at a point of the surface (m, the nearest one is taken): a half-sine as long as
-/// Hertz' law gives for a rigid striker of 1 cm radius with this impulse. Whether the body breaks depends on the impulse, as ever.
+/// Hertz's law gives for a rigid striker of 1 cm radius with this impulse. Whether the body breaks depends on the impulse, as ever.
 ///
 /// # Errors
 /// A number that is not finite, or an impulse of no length; what [`FractureConfig::validate`] refuses.

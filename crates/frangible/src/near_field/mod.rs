@@ -11,7 +11,7 @@
 //! # Equations
 //!
 //! A wall of thickness h, D = E h³ / 12(1−ν²), mass per area μ = ρ h, is pushed by a force F(t) that is spread over a disc of
-//! radius a as Hertz' pressure is, whose transform is p̂ = 3 (sin ka − ka cos ka)/(ka)³. Every wave number k is an oscillator,
+//! radius a as Hertz's pressure is, whose transform is p̂ = 3 (sin ka − ka cos ka)/(ka)³. Every wave number k is an oscillator,
 //! `q̈ + d q̇ + ω(k)² q = F(t)`. Its share of the wall's bending shows at distance r as
 //!
 //! `κ_r + κ_θ = (1/2π) ∫ k H(k) ω² q J₀(kr) dk`, `κ_θ − κ_r = (1/2π) ∫ k H(k) ω² q J₂(kr) dk`, H = p̂ k² C / (D k⁴ + E h s),
@@ -25,7 +25,7 @@
 //! The integral is cut into bands (`Bands`). The oscillators of a band share one frequency, so that a band is one more mode of the body,
 //! which lives about the contact: a *wall oscillator*. Its load shape ξ is such that a steady force moves the contact by
 //! `ξ²/ω² = p̂² Δ(k²)/4π · Γ/(D k⁴ + E h s)`, which is ξ² = p̂² Δ(k²)/(4πμ) of a thin plate. Γ is the compliance of the elastic layer
-//! beyond that of a half-space, over that of Kirchhoff's plate: the half-space is Hertz' spring already, and Mindlin's shear would count it twice.
+//! beyond that of a half-space, over that of Kirchhoff's plate: the half-space is Hertz's spring already, and Mindlin's shear would count it twice.
 //! Together they are at once the contact's radiation,
 //! Zener's dashpot 8 √(Dμ) of an infinite plate (1941), and the near field's stress. Within a band J is integrated in closed form,
 //! ∫ k J₀ dk = k J₁/r and ∫ k J₂ dk = −(kr J₁ + 2 J₀)/r², so bands may be wide without ghosts at a distance. Bands

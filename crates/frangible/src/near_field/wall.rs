@@ -173,7 +173,7 @@ impl WallMaterial {
             .sqrt()
     }
 
-    /// Compliance of the contact in waves of wave number k, m per Pa at the crest, beyond that of Hertz' half-space.
+    /// Compliance of the contact in waves of wave number k, m per Pa at the crest, beyond that of Hertz's half-space.
     pub(super) fn compliance(&self, k: f64) -> f64 {
         let factor = match self.theory {
             PlateTheory::Kirchhoff => 1.0,
@@ -232,7 +232,7 @@ fn layer_factor(x: f64) -> f64 {
 
 /// Compliance of an elastic layer under a pressure of wave number k, beyond that of a half-space, over that of Kirchhoff's plate;
 /// `x` = kh. The layer bends and is squeezed: (f_a + f_s) against 2, with f_a = (cosh x + 1)/(sinh x − x),
-/// f_s = (cosh x − 1)/(sinh x + x). The difference falls to nothing where kh > 4: Hertz' spring has the rest.
+/// f_s = (cosh x − 1)/(sinh x + x). The difference falls to nothing where kh > 4: Hertz's spring has the rest.
 fn layer_compliance(x: f64) -> f64 {
     if x < 0.1 {
         // 1 + x²/5 + …, less x³/6 of the half-space: the differences lose digits.
@@ -245,7 +245,7 @@ fn layer_compliance(x: f64) -> f64 {
     x.powi(3) / 12.0 * (bends + squeezed - 2.0)
 }
 
-/// Transform of Hertz' pressure on a disc, of unit force; `x` = ka.
+/// Transform of Hertz's pressure on a disc, of unit force; `x` = ka.
 pub(super) fn hertz_disc(x: f64) -> f64 {
     if x < 1e-2 {
         1.0 - x * x / 10.0
