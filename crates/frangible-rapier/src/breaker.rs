@@ -1,8 +1,8 @@
-//! Breaking bodies in a world that is the game's own.
+//! Breaking bodies in a game's own Rapier world.
 //!
-//! A game has Rapier's sets and pipeline already, with its own bodies, joints, hooks and events in them. A [`Breaker`] holds only what
-//! Rapier does not know: which bodies can break, their assets, and their cracks. For the length of a call it borrows the
-//! game's sets ([`Sets`]) and works on them as a [`BreakableWorld`] works on its own; in between it holds none of them.
+//! A game already has Rapier's sets and pipeline, with its own bodies, joints, hooks and events. A [`Breaker`] stores only the additional
+//! data: the breakable bodies, their assets and their cracks. During a call it borrows the game's sets ([`Sets`]) and works on them as a
+//! [`BreakableWorld`] works on its own.
 //!
 //! The borrowed sets are swapped in and out, some hundred bytes each. They go back even if a hook or an event handler of the game
 //! panics.
@@ -92,7 +92,7 @@ impl Default for Breaker {
 }
 
 impl Breaker {
-    /// Breaks bodies, and changes nothing else: [`WorldConfig::plain`].
+    /// Makes a breaker that changes nothing except breaking bodies: [`WorldConfig::plain`].
     #[must_use]
     pub fn new() -> Self {
         match Self::with_config(WorldConfig::plain()) {
@@ -101,11 +101,11 @@ impl Breaker {
         }
     }
 
-    /// A breaker with a configuration of its own. Gravity, time step, length unit, solver iterations and largest speed are those of
-    /// the game's sets, whatever the configuration says.
+    /// Makes a breaker with a configuration. Gravity, time step, length unit, solver iterations and largest speed of the configuration are
+    /// ignored; those of the game's sets apply.
     ///
     /// # Errors
-    /// A number of the configuration that cannot be used.
+    /// An invalid number in the configuration.
     pub fn with_config(config: WorldConfig) -> Result<Self, WorldError> {
         Ok(Self {
             world: BreakableWorld::new(config)?,
@@ -114,11 +114,11 @@ impl Breaker {
 
     /// Steps the game's world in place of [`PhysicsPipeline::step`]; returns the breaks in the step.
     ///
-    /// A step in which a body breaks is undone and taken again. Events of an undone step are dropped, and hooks are asked in every step
-    /// taken: see [`BreakableWorld::step_with`].
+    /// A step in which a body breaks is undone and repeated. Events of an undone step are dropped; hooks are called in every attempt. See
+    /// [`BreakableWorld::step_with`].
     ///
     /// # Errors
-    /// The fracture refused an asset or a contact. The step is complete and the body whole: go on, or remove it.
+    /// The fracture model rejected an asset or a contact. The step is complete and the body whole: continue, or remove the body.
     pub fn step<'a>(
         &'a mut self,
         sets: Sets<'_>,
@@ -131,14 +131,14 @@ impl Breaker {
         stepped.map(|()| self.world.breaks())
     }
 
-    /// Does everything else that a [`BreakableWorld`] can do, on the game's sets: insert breakable bodies, ask what would break, push,
-    /// save and restore.
+    /// Calls `work` with a [`BreakableWorld`] on the game's sets, for everything else: inserting breakable bodies, testing blows, pushes,
+    /// saving and restoring.
     pub fn with<T>(&mut self, sets: Sets<'_>, work: impl FnOnce(&mut BreakableWorld) -> T) -> T {
         let mut lent = Lent::new(&mut self.world, sets);
         work(lent.world())
     }
 
-    /// State that is known without the game's sets: breaks of the last step, breakable bodies, counts, times.
+    /// State that does not need the game's sets: breaks of the last step, breakable bodies, counts, times.
     #[must_use]
     pub fn state(&self) -> &BreakableWorld {
         &self.world

@@ -1,30 +1,29 @@
-//! Switches and numbers of the world.
+//! Settings of the world.
 
 use frangible::FractureConfig;
 use rapier3d::math::Vector;
 
 use crate::error::{WorldError, finite, not_negative, positive};
 
-/// Moment at which a body that breaks gives way to its fragments.
+/// Time at which a breaking body is replaced by its fragments.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Breaking {
-    /// Inside the step: it is undone and taken again with fragments, so that a ball goes on through the pane it broke.
-    /// Costs a copy of the world in every step that may see an impact, and one more step of Rapier in every step that
-    /// sees a break.
+    /// Inside the step: the step is undone and repeated with fragments, so that a ball continues through the pane that it broke.
+    /// Costs a copy of the world in every step with a possible impact, and a second Rapier step in every step with a break.
     #[default]
     InsideStep,
-    /// After the step, which stands: the whole body takes the blow, then its fragments go on with its motion. A body judged in
-    /// the step of the blow gives its striker back the excess that the engine took, and the striker meets the pieces in the
-    /// next step; to a body judged later a ball loses as much as if it had held. No copy, no second step; for scenes of
-    /// hundreds of bodies.
+    /// After the step, which is kept: the whole body takes the blow, and its fragments continue with its motion. If the break is
+    /// computed in the step of the blow, the striker gets back the excess impulse that the engine took and meets the pieces in the
+    /// next step; if it is computed later, a ball loses as much speed as if the body had held. Needs no copy and no second step; for
+    /// scenes with hundreds of bodies.
     AfterStep {
-        /// Work per step, in tetrahedra of the fracture meshes of the bodies that a quick bound does not clear; one body
-        /// at least. The others wait in the order of their blows, and stay whole until then: they collide as whole bodies
-        /// do, and of several blows while one waits the hardest counts. `usize::MAX`: none waits.
+        /// Work per step, in tetrahedra of the fracture meshes of bodies that a quick bound does not clear; at least one body. The
+        /// others wait in the order of their blows and stay whole until then; if a waiting body is hit several times, the hardest
+        /// blow counts. `usize::MAX`: no waiting.
         budget: usize,
-        /// Steps for which other threads may compute a break while the world goes on; then the world waits for unfinished breaks,
-        /// so that a body breaks in the same step however fast the machine is. 0: at once, inside
+        /// Number of steps that other threads have to compute a break while the world continues; the world then waits for unfinished
+        /// breaks, so that a body breaks in the same step on any machine. 0: compute the break inside
         /// [`step`](crate::BreakableWorld::step).
         delay: usize,
     },
@@ -33,32 +32,32 @@ pub enum Breaking {
 /// Level of detail of a collider.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ColliderDetail {
-    /// Convex parts at most, 1 or more: neighbouring cells are merged until no more are left. 1 is the convex hull.
+    /// Largest number of convex parts, 1 or more: neighbouring cells are merged down to this number. 1 gives the convex hull.
     pub parts: usize,
-    /// Points of each part at most, 4 or more.
+    /// Largest number of points of each part, 4 or more.
     pub hull_points: usize,
 }
 
-/// Settings for fragments that break again.
+/// Settings of fragments that can break again.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct PieceConfig {
-    /// Generations of fragments that break again: with 1, the pieces of baked bodies are the last that break. Default 3; 0 for none.
+    /// Number of generations of fragments that can break again: 1 means only pieces of baked bodies. Default 3; 0 for none.
     pub generations: u32,
-    /// Mass of the lightest fragments that break again, kg. Default 2e-3, a shard of glass 20 mm wide.
+    /// Smallest mass of a fragment that can break again, kg. Default 2e-3, a shard of glass 20 mm wide.
     pub least_mass: f32,
-    /// Fewest uncut tetrahedra of a fragment that breaks again. Default 60.
+    /// Smallest number of uncut tetrahedra of a fragment that can break again. Default 60.
     pub least_tets: usize,
     /// Time from a fragment's birth until it can break, s. Default 0.02: the blow that made it is over by then.
     pub delay: f32,
-    /// Time from its birth until it has the modes that take longer to find, s. Default 0.15.
+    /// Time from a fragment's birth until its modes that take longer to compute are used, s. Default 0.15.
     pub later: f32,
-    /// Finds new modes for bodies that are cracked but whole, too. Default on.
+    /// Also computes new modes for bodies that are cracked but not broken. Default on.
     pub cracked: bool,
-    /// Work of other threads, s, that goes into pieces in a second of the world, for each of the two times above. Work beyond it,
-    /// by what the [model](frangible::internals::PieceModel::expected_times) expects, is due later than they say, heavy fragments first.
-    /// Default infinity: everything is due when they say, and the world waits for what is not ready. A game takes 0.5 or so: a body that
-    /// bursts into a hundred pieces then costs no frame.
+    /// Thread time, s, spent on pieces per simulated second, for each of `delay` and `later`. Work beyond it, by the
+    /// [times that the model expects](frangible::internals::PieceModel::expected_times), is postponed, heavy fragments first. Default
+    /// infinity: nothing is postponed, and the world waits for unfinished work. About 0.5 suits games: a body that breaks into a hundred
+    /// pieces then costs no frame.
     pub pace: f32,
 }
 
@@ -81,14 +80,14 @@ impl Default for PieceConfig {
     }
 }
 
-/// Treatment of pieces that rest.
+/// Treatment of pieces at rest.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum AtRest {
-    /// They sleep until something touches them.
+    /// Pieces sleep until something touches them.
     #[default]
     Sleep,
-    /// They become fixed: nothing moves them any more, and nothing has to be solved for them. They break again as others do.
+    /// Pieces become fixed, so nothing moves them and they cost no solver time. They can still break again.
     Freeze,
     /// Pieces of one body become one fixed body, its rubble, with one compound collider: see [`merged`](crate::BreakableWorld::merged). A copy of
     /// the world, its broad phase and its contacts have that collider in the place of all of theirs, and they do not count for
@@ -96,7 +95,7 @@ pub enum AtRest {
     /// hits it, with those that lie on it; the others stay where they are, as the floor does. A rubble has the surface, the collision groups and the
     /// user data of its first piece. Pieces that lie on a body that can move, or on a held body that can break, go on sleeping.
     Merge,
-    /// They are removed.
+    /// Pieces are removed.
     Go,
 }
 
@@ -104,71 +103,71 @@ pub enum AtRest {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct WorldConfig {
-    /// Acceleration of gravity, m/s². Default (0, −9.81, 0).
+    /// Gravitational acceleration, m/s². Default (0, −9.81, 0).
     pub gravity: Vector,
     /// Time step, s. Default 1/240: at 1/60 a piece that falls for half a second moves 8 cm per step.
     pub dt: f32,
-    /// Size of typical bodies, m: Rapier's tolerances (slop, prediction, push-out speed, sleep speed) scale with it.
+    /// Typical body size, m: Rapier's tolerances (slop, prediction, push-out speed, sleep speed) scale with it.
     /// Default 0.1. Rapier's own 1 m leaves gaps of 5 mm, more than a pane is thick.
     pub length_unit: f32,
     /// Solver iterations per step, 1 or more. Default 4.
     pub solver_iterations: usize,
     /// Largest speed of bodies, m/s. Default 400.
     pub max_speed: f32,
-    /// Approach speed from which a contact is an impact, m/s. Default 0.5; raising it asks the fracture less often.
+    /// Smallest approach speed at which a contact is tested for fracture, m/s. Default 0.5; a higher value means fewer tests.
     pub impact_speed: f32,
-    /// Distance below which contact points of one pair are one contact, m. Default 5e-4.
+    /// Distance below which contact points of a pair are merged, m. Default 5e-4.
     pub merge_distance: f32,
-    /// Hull volume over piece volume up to which a fragment gets one convex hull. Default 1.15.
+    /// Largest ratio of hull volume to piece volume at which a fragment gets a single convex hull. Default 1.15.
     pub hull_volume_ratio: f32,
     /// Detail of the collider of a whole body; that of a box is a box. Default: all the convex cells of the bake, 128 points each.
     pub whole_collider: ColliderDetail,
-    /// Detail of the colliders of fragments that one hull does not fit. Default: 12 parts of at most 48 points. It is most of what a heap of pieces
-    /// costs. Measured in `frangible-lab bench shop`, Rapier's time per frame: every share of a cell with 128 points
+    /// Detail of the colliders of fragments that a single hull does not fit. Default: 12 parts of at most 48 points. It dominates the cost of a
+    /// heap of pieces. Measured in `frangible-lab bench shop`, Rapier's time per frame: every share of a cell with 128 points
     /// 97 ms, this 45 ms, 4 parts of 24 points with [`WorldConfig::hull_volume_ratio`] 3 13 ms.
     pub fragment_collider: ColliderDetail,
-    /// Speed at which fragments of one parent part when they overlap, m/s; zero leaves overlaps alone.
-    /// Default 0.002: along a chain of pieces the speeds add up, and must stay below what counts as rest.
+    /// Separation speed of overlapping fragments of the same parent, m/s; zero leaves overlaps unchanged.
+    /// Default 0.002: in a chain of pieces the speeds add up, and the sum must stay below the threshold of rest.
     pub overlap_relaxation: f32,
-    /// Distance ahead of a contact's normal at which the pressure of a rolling body acts, m: the torque of rolling resistance is
-    /// this × normal force. Default 5e-4: rough stone, dust. Zero: things roll for ever.
+    /// Rolling resistance arm, m: the torque of rolling resistance is this length times the normal force. Default 5e-4, for rough stone or
+    /// dust. Zero: no rolling resistance.
     pub rolling_arm: f32,
-    /// Drift at most of a body at rest, m: none of its points moves farther than this for 0.4 s while it touches something.
-    /// Default 3e-3 (7.5 mm/s; Rapier alone asks for 40 mm/s, but in every step). Zero leaves sleep to Rapier alone.
+    /// Largest drift of a body at rest, m: while it touches something, none of its points moves farther than this within 0.4 s.
+    /// Default 3e-3 (7.5 mm/s; Rapier's own threshold is 40 mm/s, but in every step). Zero: Rapier alone decides on sleep.
     pub rest_drift: f32,
-    /// A joint of a broken body moves to the nearest fragment within this distance of its anchor, m; else it is
-    /// released. Default 5e-3.
+    /// Distance within which a joint of a broken body moves to the fragment nearest to its anchor, m; otherwise it is released.
+    /// Default 5e-3.
     pub joint_reach: f32,
-    /// Mass below which fragments are debris, kg: a box for a collider, removed when there are too many. Default 1e-4, a
+    /// Mass below which fragments are debris, kg: they get a box collider and are removed if there are too many. Default 1e-4, a
     /// chip of glass 3 mm wide.
     pub debris_mass: f32,
-    /// Mass below which fragments are dust, kg: debris without a collider, so that it falls through everything, costs next to
-    /// nothing, and is removed after a second. Default 0: none.
+    /// Mass below which fragments are dust, kg: debris without a collider, which falls through everything, costs almost nothing, and is
+    /// removed after a second. Default 0: no dust.
     pub dust_mass: f32,
-    /// Largest number of pieces of debris; the oldest goes first. Default 200.
+    /// Largest number of pieces of debris; the oldest are removed first. Default 200.
     pub max_debris: usize,
-    /// Largest mean time of the last 32 steps, s: while they take longer, one in fifty pieces of debris goes in each, the oldest
-    /// first. Default infinity. With it two runs are no longer alike, as they depend on the speed of the machine.
+    /// Largest mean time of the last 32 steps, s: while it is exceeded, each step removes one in fifty pieces of debris, the oldest
+    /// first. Default infinity. A finite value makes runs depend on the speed of the machine and so not reproducible.
     pub step_time: f32,
-    /// Treatment of pieces that have rested for [`WorldConfig::rest_time`]: slept, or stayed within [`WorldConfig::rest_drift`] of their
-    /// place, whatever the others of their heap do. Those that touch a body that can move and is no piece sleep on. Default
+    /// Treatment of pieces that have rested for [`WorldConfig::rest_time`]: that slept, or stayed within [`WorldConfig::rest_drift`] of their
+    /// position, regardless of the rest of their heap. Pieces that touch a movable body other than a piece only sleep. Default
     /// [`AtRest::Sleep`].
     pub at_rest: AtRest,
-    /// Time that a piece has to rest before [`WorldConfig::at_rest`] applies, s. Default 2.
+    /// Time at rest after which [`WorldConfig::at_rest`] applies to a piece, s. Default 2.
     pub rest_time: f32,
-    /// Time in which a piece that is removed [fades](crate::BreakableWorld::fading) without its collider, s. Default zero: it is gone at once.
+    /// Time in which a removed piece [fades](crate::BreakableWorld::fading) without its collider, s. Default zero: it is removed at once.
     pub fade_time: f32,
     /// Largest number of bodies; a body whose fragments would not fit stays whole. Default 4000.
     pub max_bodies: usize,
-    /// Checks resting loads after every step, and breaks bodies that carry too much. Default on.
+    /// Checks sustained loads after every step and breaks overloaded bodies. Default on.
     pub resting_loads: bool,
-    /// Moment at which a body gives way to its fragments. Default inside the step.
+    /// Time at which a breaking body is replaced by its fragments. Default: inside the step.
     pub breaking: Breaking,
     /// Settings for fragments that break again, if the world has a [model of how they vibrate](crate::BreakableWorld::set_piece_model).
     pub pieces: PieceConfig,
     /// Also records the impacts that broke nothing, see [`crate::BreakableWorld::held`]. Default off.
     pub record_held: bool,
-    /// Switches and numbers of the fracture.
+    /// Settings of the fracture model.
     pub fracture: FractureConfig,
 }
 
@@ -213,8 +212,8 @@ impl Default for WorldConfig {
 }
 
 impl WorldConfig {
-    /// The default without everything that changes the motion of unbreakable bodies: no rolling resistance, and sleep left to Rapier. So steps
-    /// without breakable bodies are Rapier's own, bit for bit.
+    /// The default without anything that changes the motion of unbreakable bodies: no rolling resistance, and sleep decided by Rapier. Steps
+    /// without breakable bodies are bit-identical to Rapier's.
     #[must_use]
     pub fn plain() -> Self {
         Self {
@@ -224,8 +223,8 @@ impl WorldConfig {
         }
     }
 
-    /// Settings for hundreds of bodies at a game's rate: steps of 1/60 s; breaks after the step, about one body a step, which
-    /// other threads have three steps for; colliders of few parts, a single hull where a piece fills a third of it.
+    /// Settings for real-time scenes with hundreds of bodies: steps of 1/60 s; breaks after the step, about one body per step, with three
+    /// steps for other threads to compute it; colliders with few parts, and a single hull for pieces that fill a third of it.
     #[must_use]
     pub fn for_games() -> Self {
         Self {
@@ -250,7 +249,7 @@ impl WorldConfig {
     /// Checks every number.
     ///
     /// # Errors
-    /// The first field that is not finite or out of its range, of the fracture's too.
+    /// The first field that is not finite or out of range, including those of the fracture model.
     pub fn validate(&self) -> Result<(), WorldError> {
         finite("gravity", self.gravity)?;
         positive("time step (s)", self.dt)?;

@@ -3,25 +3,24 @@
 use frangible::Outcome;
 use frangible::internals::outcome::LookedAt;
 
-/// Counts of the loads that a world put to the fracture, by outcome. Each load is one question; a load that a repeated step brings
-/// again unchanged is not asked again.
+/// Counts of the loads that a world tested for fracture, by outcome. A load that a repeated step reproduces unchanged counts once.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct LoadCounts {
-    /// Loads asked: one body in one step each, with all its contacts.
+    /// Loads tested: each is one body in one step, with all its contacts.
     pub asked: u64,
-    /// Contacts in them.
+    /// Contacts of these loads.
     pub contacts: u64,
-    /// Refused by the sizes and durations of their impulses, without time steps ([`LookedAt::Sizes`], [`LookedAt::Impulses`]); steady
+    /// Ruled out by the sizes and durations of the impulses, without time steps ([`LookedAt::Sizes`], [`LookedAt::Impulses`]); sustained
     /// loads by the size of their forces.
     pub by_impulses: u64,
-    /// Refused by the amplitudes of the modes and bounds of the whole body, at every time step ([`LookedAt::Amplitudes`]).
+    /// Ruled out by the modal amplitudes and a bound for the whole body, at every time step ([`LookedAt::Amplitudes`]).
     pub by_amplitudes: u64,
-    /// Refused by bounds of parts of the body ([`LookedAt::Clusters`]).
+    /// Ruled out by bounds for the clusters of the body ([`LookedAt::Clusters`]).
     pub by_clusters: u64,
-    /// Held after a look at stresses ([`LookedAt::Stresses`]).
+    /// Held according to the computed stresses ([`LookedAt::Stresses`]).
     pub by_stresses: u64,
-    /// Broke; also where there was no room for the pieces.
+    /// Broke, including breaks suppressed for lack of room for the pieces.
     pub broke: u64,
 }
 

@@ -11,9 +11,9 @@ use rapier3d::math::{Pose, Vector};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum BreakCause {
-    /// It was hit, or hit something.
+    /// An impact.
     Impact,
-    /// The load that it carried: resting contacts, and its own weight when it is held.
+    /// A sustained load: resting contacts, and the weight of a supported body.
     Rest,
     /// [`BreakableWorld::blast`](crate::BreakableWorld::blast).
     Blast,
@@ -21,7 +21,7 @@ pub enum BreakCause {
     Script,
 }
 
-/// A body broke.
+/// Event: a body broke.
 #[derive(Clone, Debug)]
 pub struct BreakEvent {
     /// Number of the step, from 0.
@@ -34,27 +34,27 @@ pub struct BreakEvent {
     pub asset: Arc<Asset>,
     /// The new bodies, in the order of [`Fracture::fragments`]. Debris may be removed again later.
     pub fragments: Vec<RigidBodyHandle>,
-    /// Impulse joints of the body that no fragment holds; they are no longer in the world. The others are a fragment's now, with the same
+    /// Impulse joints of the body that moved to no fragment and were removed. The others are attached to fragments now, with the same
     /// handles.
     pub released_joints: Vec<ImpulseJointHandle>,
     /// The pieces, their meshes and the report.
     pub fracture: Arc<Fracture>,
-    /// The contacts that broke it, body frame. Of a resting load: the pushes of one step, speed 0, friction within the
-    /// normal. Empty for a blast and a scripted blow.
+    /// The contacts that broke the body, body frame. For a sustained load, the pushes of one step, with speed 0 and with friction included in
+    /// the normal. Empty for a blast or a scripted blow.
     pub contacts: Vec<Contact>,
-    /// Bodies that hit it, or lay on it, without those removed or broken in the same step.
+    /// Bodies that hit it or loaded it, except those removed or broken in the same step.
     pub strikers: Vec<RigidBodyHandle>,
     /// Pose of the body when it broke, at the start of the step.
     pub pose: Pose,
-    /// Velocity of its centre of mass then, m/s.
+    /// Velocity of its centre of mass at that time, m/s.
     pub linvel: Vector,
-    /// Angular velocity then, rad/s.
+    /// Angular velocity at that time, rad/s.
     pub angvel: Vector,
-    /// Energy taken from the motion for the cracks, J: what the blow took into vibration first, then a toll. At most
-    /// `fracture.report.fracture_energy`, less when the pieces hardly moved against each other.
+    /// Kinetic energy spent on cracks, J: first the energy that the blow put into vibration, then relative motion. At most
+    /// `fracture.report.fracture_energy`, less if the pieces hardly move relative to each other.
     pub energy_paid: f64,
-    /// Kinetic energy before the step, of the body and of all that it pushed in the step, directly or through others, J; of a break after
-    /// the step, of the body and of what hit it; of a blast or scripted blow, of the body alone.
+    /// Kinetic energy before the step, J: of the body and of all bodies that it pushed in the step, directly or indirectly; for a break after
+    /// the step, of the body and its strikers; for a blast or scripted blow, of the body alone.
     pub kinetic_before: f64,
     /// Kinetic energy of all these after the step, J, the pieces in place of the bodies; of a blast or scripted blow, of the fragments
     /// before the step moves them. Together with `cracks_together` at most `kinetic_before` + `work`, but for rounding.
@@ -65,20 +65,20 @@ pub struct BreakEvent {
     pub cracks_together: f64,
 }
 
-/// An impact, blast or scripted blow that broke nothing, or a resting load that cracked a body without parting it;
-/// recorded on request.
+/// Event: an impact, blast or scripted blow that did not break a body, or a sustained load that cracked it without breaking it. Recorded
+/// on request.
 #[derive(Clone, Debug)]
 pub struct HeldEvent {
     /// Number of the step, from 0.
     pub step: u64,
     /// The body that was hit.
     pub body: RigidBodyHandle,
-    /// The contacts, body frame; as [`BreakEvent::contacts`].
+    /// The contacts, body frame; see [`BreakEvent::contacts`].
     pub contacts: Vec<Contact>,
-    /// Strength over the bound of the stress: how many times as hard the blow could have been, at least.
+    /// Strength over an upper bound of the stress: a lower bound of the factor by which the blow could have been harder.
     pub margin: f64,
     /// Report of the fracture.
     pub report: ImpactReport,
-    /// Its cracks from now on, where new ones ran; the body has them already.
+    /// The new state of cracks, if cracks ran; already applied to the body.
     pub state: Option<BodyState>,
 }

@@ -1,4 +1,4 @@
-//! One number for all that moves, so that two machines that play the same match can tell whether they still agree.
+//! A checksum of the state of motion, to verify that two machines in the same game agree.
 
 use crate::world::BreakableWorld;
 
@@ -7,9 +7,8 @@ const START: u64 = 0xcbf2_9ce4_8422_2325;
 const FACTOR: u64 = 0x0100_0000_01b3;
 
 impl BreakableWorld {
-    /// A number computed from the bits of the poses, velocities and masses of all bodies. Worlds in which one of these bits differs have
-    /// other numbers, but for one chance in 2⁶⁴; worlds that were stepped alike have the same one, on any machine
-    /// if the feature `portable` is on.
+    /// Returns a checksum of the bits of the poses, velocities and masses of all bodies. Worlds that differ in one of these bits have different
+    /// checksums, except with a probability of 2⁻⁶⁴; worlds stepped alike have equal ones, on any machine if the feature `portable` is on.
     #[must_use]
     pub fn fingerprint(&self) -> u64 {
         let mut hash = START;

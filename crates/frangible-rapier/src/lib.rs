@@ -1,10 +1,10 @@
 //! A Rapier world whose bodies break **inside** the step.
 //!
-//! [`BreakableWorld::step`] is the front door: it steps Rapier, hands every impact on a breakable body to
-//! [`frangible::impact()`], and when a body breaks it undoes the step, puts the fragments in the body's place
-//! with the velocities from **before** the impact, lets the blow's own impulse act, and steps again. So a ball goes on through
-//! the pane it broke with what the blow left it, instead of bouncing off a pane that is no longer there. Off a body that holds it
-//! bounces as the blow says: a thin wide pane swallows it, a block throws it back.
+//! [`BreakableWorld::step`] is the main entry point: it steps Rapier and passes every impact on a breakable body to
+//! [`frangible::impact()`]. If a body breaks, it undoes the step, replaces the body by fragments with the velocities from **before** the
+//! impact, applies the impulse of the blow, and steps again. So a ball continues through the pane that it broke with its remaining
+//! speed, instead of bouncing off a pane that no longer exists. If the body holds, the rebound follows from the blow: a thin wide pane
+//! absorbs it, a block reflects it.
 //!
 //! ```
 //! use frangible_rapier::{Ball, BreakableWorld, SurfaceProperties, WorldConfig};
@@ -20,36 +20,36 @@
 //! # Ok::<(), frangible_rapier::WorldError>(())
 //! ```
 //!
-//! `examples/glass.rs` is a whole game: a glass falls and breaks. A game that has a Rapier world already keeps it, and steps it by a
-//! [`Breaker`] in place of Rapier's pipeline: `examples/window.rs`.
+//! `examples/glass.rs` is a complete program: a glass falls and breaks. A game with its own Rapier world keeps it and steps it with a
+//! [`Breaker`] instead of Rapier's pipeline: `examples/window.rs`.
 //!
 //! # Causes of breaks
-//! - Impacts, with their friction, on one body or on two breakable ones that meet.
-//! - Loads: after every step the forces of a body's resting contacts, and a held body's weight, are put to [`frangible::internals::rest()`];
-//!   [`BreakableWorld::rest_margin`] says how far it is from breaking.
+//! - Impacts with friction, on one breakable body or between two.
+//! - Sustained loads: after every step the forces of a body's resting contacts, and the weight of a supported body, are passed to
+//!   [`frangible::internals::rest()`]; [`BreakableWorld::rest_margin`] gives the safety margin.
 //! - [`BreakableWorld::blast`] and [`BreakableWorld::fracture_at`].
 //!
-//! [`BreakEvent::cause`] tells which it was. [`BreakableWorld::would_break`] asks before.
+//! [`BreakEvent::cause`] gives the cause. [`BreakableWorld::would_break`] tests a blow without applying it.
 //!
 //! # Guarantees
-//! - Mass, centre and inertia of a fragment are the exact ones of the piece, never those of its collider.
-//! - Replacing a body by its fragments changes neither momentum nor angular momentum, and adds no kinetic energy.
-//! - Impulses of blows are equal and opposite on body and striker, and never give energy.
-//! - The cracks' energy is taken from the energy that the blow took, then from the motion of fragments and striker relative to each other.
+//! - Mass, centre and inertia of a fragment are those of the exact piece, not of its collider.
+//! - Replacing a body by its fragments conserves momentum and angular momentum, and adds no kinetic energy.
+//! - Impulses of blows are equal and opposite on body and striker, and never add energy.
+//! - The energy of cracks is taken from the energy absorbed by the blow, then from the relative motion of fragments and striker.
 //! - No fragment's centre of mass passes through a fixed body, and no ball through anything.
-//! - Two runs give the same bits, with the feature `portable`, which is on by default, on any two machines: [`BreakableWorld::fingerprint`]
-//!   tells.
+//! - Two runs are bit-identical; with the feature `portable`, which is on by default, also on different machines.
+//!   [`BreakableWorld::fingerprint`] verifies it.
 //!
 //! # Cost
 //! A step copies the world only when a breakable body may be hit at [`WorldConfig::impact_speed`] or more
-//! (0.8 ms for 300 bodies); exchanging a body for 100 pieces costs about 8 ms, once, beside the break itself. Resting worlds pay one
-//! pass over the velocities. [`BreakableWorld::timings`] has the times of the parts of a step.
+//! (0.8 ms for 300 bodies); replacing a body by 100 pieces costs about 8 ms, once, in addition to the break. A world at rest costs one
+//! pass over the velocities. [`BreakableWorld::timings`] gives the times of the parts of a step.
 //!
 //! # Many bodies
-//! For scenes of hundreds of bodies take [`Breaking::AfterStep`]: no copy, no second step, work spread over steps by a
-//! budget and over threads; [`ColliderDetail`] for light colliders; [`WorldConfig::dust_mass`] and
-//! [`WorldConfig::debris_mass`] for pieces too small to matter; the feature `parallel` for Rapier's own threads. All of it
-//! gives the same bits on any number of threads. The china shop of `frangible_lab::bench` does it for a thousand.
+//! For scenes with hundreds of bodies use [`Breaking::AfterStep`], which needs no copy and no second step and spreads the work over
+//! steps and threads; [`ColliderDetail`] for simple colliders; [`WorldConfig::dust_mass`] and [`WorldConfig::debris_mass`] for
+//! negligible pieces; and the feature `parallel` for Rapier's own threads. Results are bit-identical for any number of threads. The
+//! china shop in `frangible_lab::bench` has a thousand bodies.
 //!
 //! # Resting pieces
 //! Pieces that stay in their place sleep, become fixed, are removed, or are merged into one fixed body with one compound collider for each body
@@ -58,14 +58,14 @@
 //! [`BreakableWorld::loosen`], or when its body is made dynamic. A heap of 300 pieces that jostle costs 17 ms in a step, as fixed bodies
 //! 0.9 ms, merged 0.3 ms; with a copy of the world 30, 6.5 and 1.2 ms (`benches/step.rs`, beside other work).
 //!
-//! # Held bodies
-//! A body whose asset has supports (a pane in its frame, a shelf in its wall) is fixed until it breaks; then the
-//! fragments with a supported node stay, the others fall.
+//! # Supported bodies
+//! A body whose asset has supports (a pane in its frame, a shelf in a wall) is fixed until it breaks; then the fragments with a
+//! supported node stay in place, and the others fall.
 //!
 //! # Fragments that break again
-//! With a model that finds their modes ([`BreakableWorld::set_piece_model`]; module `pieces` of `frangible-bake` has several) fragments
-//! become breakable bodies [`PieceConfig::delay`] after they were born, within limits of generation, mass and size; below
-//! them they are plain bodies. Bodies that are cracked but whole get new, lower modes the same way.
+//! With a model for their modes ([`BreakableWorld::set_piece_model`]; the module `pieces` of `frangible-bake` has several), fragments
+//! become breakable [`PieceConfig::delay`] after the break, within limits of generation, mass and size; the others stay plain bodies.
+//! Bodies that are cracked but not broken get new modes in the same way.
 //!
 //! # Limitations
 //! Contacts that a bound refuses unseen, and blows judged in a later step than their own, keep the engine's impulse and

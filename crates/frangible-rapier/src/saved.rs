@@ -1,4 +1,4 @@
-//! A world put aside, to go back to.
+//! Saved states of a world.
 
 use frangible::FractureConfig;
 use rapier3d::dynamics::IntegrationParameters;
@@ -7,8 +7,8 @@ use rapier3d::math::Vector;
 use crate::snapshot::Snapshot;
 use crate::world::{BreakableWorld, State};
 
-/// The state of a [`BreakableWorld`] at one moment: see [`BreakableWorld::save`]. Shapes and assets are shared with the
-/// world, so it takes about as much as the bodies' poses and contacts.
+/// A saved state of a [`BreakableWorld`], made by [`BreakableWorld::save`]. Shapes and assets are shared with the world, so it takes about as
+/// much memory as the poses and contacts of the bodies.
 pub struct SavedWorld {
     snapshot: Snapshot,
     gravity: Vector,
@@ -18,8 +18,8 @@ pub struct SavedWorld {
 }
 
 impl BreakableWorld {
-    /// Puts the world's state aside, between two steps. Events of the last step are not kept, nor are blows that other
-    /// threads judge at the time ([`Breaking::AfterStep`](crate::Breaking::AfterStep) with a delay).
+    /// Saves the state of the world between two steps. Events of the last step, and blows that other threads are computing
+    /// ([`Breaking::AfterStep`](crate::Breaking::AfterStep) with a delay), are not saved.
     #[must_use]
     pub fn save(&self) -> SavedWorld {
         SavedWorld {
@@ -31,7 +31,7 @@ impl BreakableWorld {
         }
     }
 
-    /// Goes back to a state of this world: from there on it steps as it did then, bit for bit.
+    /// Restores a saved state of this world. Later steps are bit-identical to those after the save.
     pub fn restore(&mut self, saved: &SavedWorld) {
         saved
             .snapshot

@@ -1,4 +1,4 @@
-//! Times of the parts of a step. Wall clock: the only thing here that differs from run to run.
+//! Wall-clock times of the parts of a step: the only output that differs from run to run.
 
 use std::ops::AddAssign;
 
@@ -8,26 +8,26 @@ use web_time::Instant;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct StepTimings {
-    /// Rapier's step; if it was taken again, the one that stands.
+    /// Rapier's step; if it was repeated, only the final one.
     pub rigid: f64,
-    /// Rapier's steps that were undone.
+    /// Undone Rapier steps.
     pub undone: f64,
-    /// Finding the bodies that may be hit, copies of the world, and going back to them.
+    /// Finding the bodies that may be hit, copying the world, and restoring the copy.
     pub copies: f64,
     /// Contacts of hit bodies.
     pub contacts: f64,
-    /// [`frangible::impact()`], on as many threads as there are.
+    /// [`frangible::impact()`], wall-clock time over all threads.
     pub fracture: f64,
-    /// Shapes of fragments, and putting them in the place of the body.
+    /// Making the shapes of fragments and replacing the body by them.
     pub fragments: f64,
-    /// Loads of bodies at rest.
+    /// Testing sustained loads.
     pub loads: f64,
-    /// Rolling, rest, the guard against tunnelling, bookkeeping.
+    /// Rolling resistance, sleep, the guard against tunnelling, bookkeeping.
     pub upkeep: f64,
 }
 
 impl StepTimings {
-    /// Time of all but Rapier's step: the cost of breaking.
+    /// Time of everything except Rapier's final step: the cost of breaking.
     #[must_use]
     pub fn ours(&self) -> f64 {
         let parts = [

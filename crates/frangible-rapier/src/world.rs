@@ -39,13 +39,13 @@ const STATIC_STIFFNESS: f32 = 10.0;
 /// 2 after 160 to 400, 10 never.
 const STIFFNESS: f32 = 2.0;
 
-/// Decides what an impact does to a body; [`frangible::impact()`] unless replaced by
+/// Function that computes the outcome of an impact; [`frangible::impact()`] unless replaced with
 /// [`BreakableWorld::set_break_function`].
 pub type BreakFn =
     dyn Fn(&Body, &[Contact], &FractureConfig) -> Result<Outcome, InputError> + Send + Sync;
 
-/// Decides what a body's load does to it, with gravity in its frame; [`frangible::internals::rest()`] unless replaced by
-/// [`BreakableWorld::set_rest_function`].
+/// Function that computes the outcome of a sustained load, with gravity in the body frame; [`frangible::internals::rest()`] unless replaced
+/// with [`BreakableWorld::set_rest_function`].
 pub type RestFn =
     dyn Fn(&Body, &[Force], Vec3, &FractureConfig) -> Result<Outcome, InputError> + Send + Sync;
 
@@ -58,8 +58,8 @@ pub(crate) fn key(handle: RigidBodyHandle) -> Key {
 
 /// A Rapier world with breakable bodies. See the crate's documentation.
 pub struct BreakableWorld {
-    /// Rapier's bodies, colliders, joints and pipelines. Add and remove what you like between steps;
-    /// gravity and time step are Rapier's own (`gravity`, `integration_parameters.dt`).
+    /// Rapier's bodies, colliders, joints and pipelines, which may be added and removed freely between steps. Gravity and time step are
+    /// Rapier's own (`gravity`, `integration_parameters.dt`).
     pub physics: PhysicsWorld,
     pub(crate) config: WorldConfig,
     pub(crate) break_function: Arc<BreakFn>,
@@ -113,10 +113,10 @@ pub(crate) struct State {
 }
 
 impl BreakableWorld {
-    /// An empty world.
+    /// Makes an empty world.
     ///
     /// # Errors
-    /// A number of the configuration that cannot be used.
+    /// An invalid number in the configuration.
     pub fn new(config: WorldConfig) -> Result<Self, WorldError> {
         config.validate()?;
         let mut physics = PhysicsWorld {
@@ -154,7 +154,7 @@ impl BreakableWorld {
         })
     }
 
-    /// Replaces [`frangible::impact()`] by another judge: another model, or a fake in tests.
+    /// Replaces [`frangible::impact()`] with another function, such as another model or a test double.
     pub fn set_break_function(
         &mut self,
         function: impl Fn(&Body, &[Contact], &FractureConfig) -> Result<Outcome, InputError>
@@ -166,7 +166,7 @@ impl BreakableWorld {
         self.break_function = Arc::new(function);
     }
 
-    /// Replaces [`frangible::internals::rest()`] by another judge of resting loads.
+    /// Replaces [`frangible::internals::rest()`] with another function for sustained loads.
     pub fn set_rest_function(
         &mut self,
         function: impl Fn(&Body, &[Force], Vec3, &FractureConfig) -> Result<Outcome, InputError>
@@ -179,13 +179,13 @@ impl BreakableWorld {
         self.weigh_anew();
     }
 
-    /// The configuration the world was made with.
+    /// The configuration of the world.
     #[must_use]
     pub fn config(&self) -> &WorldConfig {
         &self.config
     }
 
-    /// Switches and numbers of the fracture, to change between steps.
+    /// Settings of the fracture model, which may be changed between steps.
     pub fn fracture_config_mut(&mut self) -> &mut FractureConfig {
         self.weigh_anew();
         &mut self.config.fracture
@@ -209,7 +209,7 @@ impl BreakableWorld {
         &self.events
     }
 
-    /// Impacts and pushes of the last step that broke nothing; empty unless [`WorldConfig::record_held`].
+    /// Impacts and pushes of the last step that did not break a body; empty unless [`WorldConfig::record_held`] is set.
     #[must_use]
     pub fn held(&self) -> &[HeldEvent] {
         &self.held
@@ -234,7 +234,7 @@ impl BreakableWorld {
         self.state.debris.iter().copied()
     }
 
-    /// Breaks that did not happen because the fragments would exceed [`WorldConfig::max_bodies`].
+    /// Number of breaks that were suppressed because the fragments would exceed [`WorldConfig::max_bodies`].
     #[must_use]
     pub fn refused_breaks(&self) -> u64 {
         self.state.refused_breaks
@@ -246,7 +246,7 @@ impl BreakableWorld {
         self.state.impact_counts
     }
 
-    /// Counts of all resting loads so far, by outcome.
+    /// Counts of all sustained loads so far, by outcome.
     #[must_use]
     pub fn rest_counts(&self) -> LoadCounts {
         self.state.rest_counts
@@ -258,13 +258,13 @@ impl BreakableWorld {
         &self.timings
     }
 
-    /// Steps that began with a copy of the world, since a breakable body was about to be hit.
+    /// Number of steps that began with a copy of the world, because a breakable body might be hit.
     #[must_use]
     pub fn snapshots(&self) -> u64 {
         self.state.snapshots
     }
 
-    /// Number of times that a step was undone and taken again with fragments.
+    /// Number of steps that were undone and repeated with fragments.
     #[must_use]
     pub fn undone_steps(&self) -> u64 {
         self.state.undone_steps

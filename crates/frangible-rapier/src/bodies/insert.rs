@@ -1,4 +1,4 @@
-//! Ways into the world.
+//! Insertion of bodies into the world.
 
 use frangible::{Body, Striker};
 use rapier3d::dynamics::{MassProperties, RigidBodyBuilder, RigidBodyHandle, RigidBodyType};
@@ -22,11 +22,11 @@ pub struct Ball {
 }
 
 impl BreakableWorld {
-    /// Inserts a breakable body, its centre of mass at `pose`; `linvel` in m/s, `angvel` in rad/s. [`insert_body`](Self::insert_body) takes
-    /// everything else that Rapier's builders can set.
+    /// Inserts a breakable body with its centre of mass at `pose`; `linvel` in m/s, `angvel` in rad/s. Use [`insert_body`](Self::insert_body) for
+    /// the other options of Rapier's builders.
     ///
     /// # Errors
-    /// A pose or velocity that is not finite, an asset whose mass is no positive number, a full world.
+    /// A pose or velocity that is not finite, an asset without a positive mass, a full world.
     pub fn insert_breakable(
         &mut self,
         body: Body,
@@ -40,8 +40,8 @@ impl BreakableWorld {
         })
     }
 
-    /// Inserts a breakable body as Rapier's own builders describe it: `rigid` has the pose and velocity of its centre of mass and its user data;
-    /// `finish` gets the builder of its collider and may add groups, hooks, events. Fragments inherit all of that.
+    /// Inserts a breakable body described by Rapier's builders: `rigid` has the pose and velocity of its centre of mass and its user data;
+    /// `finish` receives the collider builder and may add groups, hooks and events. Fragments inherit all of these.
     ///
     /// The collider is a box where the body is one, else the compound of the asset's convex cells, with the friction and restitution of its material; mass and inertia are
     /// the asset's. A body whose asset [is supported](frangible::Asset::is_supported) becomes a fixed one: it does not move, whatever its
@@ -49,7 +49,7 @@ impl BreakableWorld {
     /// `rigid`, or by impulse joints, but all its fragments are dynamic.
     ///
     /// # Errors
-    /// A pose or velocity that is not finite, an asset whose mass is no positive number, a full world.
+    /// A pose or velocity that is not finite, an asset without a positive mass, a full world.
     pub fn insert_body(
         &mut self,
         body: Body,
@@ -136,10 +136,10 @@ impl BreakableWorld {
         Ok(self.insert(RigidBodyBuilder::fixed().pose(pose), shape, surface))
     }
 
-    /// Inserts a floor without end: everything behind the plane through `point` (m) with outward `normal`.
+    /// Inserts an infinite fixed half-space, such as a floor: everything behind the plane through `point` (m) with outward `normal`.
     ///
     /// # Errors
-    /// A point or normal that is not finite, a normal of no length, a full world.
+    /// A point or normal that is not finite, a normal of length zero, a full world.
     pub fn insert_fixed_half_space(
         &mut self,
         point: Vector,
@@ -158,7 +158,7 @@ impl BreakableWorld {
     /// Sets the surface of all colliders of any body of [`BreakableWorld::physics`].
     ///
     /// # Errors
-    /// A number that cannot be used, or no such body.
+    /// An invalid number, or an unknown body.
     pub fn set_surface(
         &mut self,
         body: RigidBodyHandle,

@@ -1,4 +1,4 @@
-//! Mortar: a weak bond between two bodies, which gives way to pull, shear or bending.
+//! Mortar: a weak bond between two bodies, which fails under tension, shear or bending.
 //!
 //! A fixed impulse joint over the face where they meet. Bodies that are bonded do not collide with each other; when the bond is
 //! gone they do.
@@ -19,13 +19,13 @@ const MARK: u128 = 0x6d6f_7274_6172_0001 << 64;
 /// Bond between two bodies at a face: its place and strength.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mortar {
-    /// Middle of the face, m, world.
+    /// Centre of the face, m, world coordinates.
     pub centre: Vector,
-    /// Normal of the face, from the first body to the second: a motion of the second one that way pulls.
+    /// Normal of the face, from the first body to the second; motion of the second body along it is tension.
     pub normal: Vector,
     /// Area of the face, m².
     pub area: f32,
-    /// Stress at which it gives way, Pa: of pull and bending along the normal, or of shear across it. Lime mortar 0.1 to 0.5 MPa.
+    /// Strength, Pa: of tension and bending along the normal, and of shear across it. Lime mortar 0.1 to 0.5 MPa.
     pub strength: f32,
 }
 
@@ -33,7 +33,7 @@ impl BreakableWorld {
     /// Bonds two bodies. When one of them breaks, the piece at the bond keeps it.
     ///
     /// # Errors
-    /// A number that cannot be used, or a body that is not there.
+    /// An invalid number, or an unknown body.
     pub fn insert_mortar(
         &mut self,
         one: RigidBodyHandle,
@@ -68,7 +68,7 @@ impl BreakableWorld {
         Ok(self.physics.impulse_joints.insert(one, two, joint, true))
     }
 
-    /// Number of bonds that still hold.
+    /// Number of intact bonds.
     #[must_use]
     pub fn mortar(&self) -> usize {
         let joints = self.physics.impulse_joints.iter();

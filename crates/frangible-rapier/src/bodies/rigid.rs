@@ -1,4 +1,4 @@
-//! Unbreakable bodies of any shape that fly like a ball.
+//! Unbreakable strikers of any shape.
 
 use rapier3d::dynamics::{RigidBodyBuilder, RigidBodyHandle};
 use rapier3d::geometry::SharedShape;
@@ -10,8 +10,8 @@ use crate::error::{WorldError, finite, positive};
 use crate::world::BreakableWorld;
 
 impl BreakableWorld {
-    /// Inserts a solid of uniform density, its frame at `pose`, swept so that it does not pass through anything however fast;
-    /// `mass` in kg, `linvel` in m/s. The surface's radius of curvature is that of the place with which it strikes.
+    /// Inserts a rigid solid of uniform density with its frame at `pose`, with continuous collision detection so that it does not tunnel;
+    /// `mass` in kg, `linvel` in m/s. The radius of curvature of `surface` is that of the striking part.
     ///
     /// # Errors
     /// A mass not above zero, a shape without volume, a pose or velocity that is not finite, a full world.

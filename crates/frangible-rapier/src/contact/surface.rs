@@ -1,22 +1,22 @@
-//! Properties of a body's surface that matter to a contact.
+//! Surface properties for contacts.
 
 use frangible::Material;
 use frangible::internals::Preset;
 
 use crate::error::{WorldError, not_negative};
 
-/// Surface of a body as a striker meets it.
+/// Surface properties of a body for contacts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceProperties {
     /// Plane-strain modulus E/(1−ν²), Pa; infinite for a rigid body.
     pub contact_modulus: f32,
-    /// Pressure that crushes it where it is touched, or dents it for good, Pa; infinite where none does.
+    /// Contact pressure that crushes or permanently dents it, Pa; infinite if none does.
     pub crushing_pressure: f32,
     /// Coefficient of restitution, 0..=1. Rapier takes the mean of the two bodies.
     pub restitution: f32,
     /// Coulomb friction coefficient. Rapier takes the mean of the two bodies.
     pub friction: f32,
-    /// Radius of curvature where it touches, m; infinite for a flat one.
+    /// Radius of curvature at the contact, m; infinite for a flat surface.
     pub curvature_radius: f32,
 }
 
@@ -28,7 +28,7 @@ impl SurfaceProperties {
     /// The oak of [`Preset::WOOD`], flat: a floor, a table top.
     pub const WOOD: Self = Self::flat(&Preset::WOOD);
 
-    /// The surface of a preset material where it is flat.
+    /// A flat surface of a preset material.
     #[must_use]
     pub const fn flat(preset: &Preset) -> Self {
         Self {
@@ -55,7 +55,7 @@ impl SurfaceProperties {
     /// Checks every number.
     ///
     /// # Errors
-    /// The first field out of its range; infinite modulus, pressure and radius are allowed, NaN is not.
+    /// The first field that is out of range. Infinite modulus, pressure and radius are allowed, NaN is not.
     pub fn validate(&self) -> Result<(), WorldError> {
         for (what, value) in [
             ("contact modulus (Pa)", self.contact_modulus),

@@ -13,8 +13,8 @@ use crate::stepping::approach::{is_fast, moves, swept_bounds};
 use crate::world::{BreakableWorld, key};
 
 impl BreakableWorld {
-    /// Makes a merged piece a body of its own again, with those that lie on it. Returns true if it was merged. A piece that is removed from
-    /// [`BreakableWorld::physics`], or is no longer fixed there, comes loose in the same way at the next step.
+    /// Makes a merged piece, and the pieces that lie on it, separate bodies again. Returns true if it was merged. The same happens at the next
+    /// step to a piece that is removed from [`BreakableWorld::physics`] or made dynamic there.
     pub fn loosen(&mut self, piece: RigidBodyHandle) -> bool {
         let merged = self.state.rubble.contains(piece);
         self.loosen_with_load(vec![piece]);

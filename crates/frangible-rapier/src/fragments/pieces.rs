@@ -58,8 +58,8 @@ impl Expected {
 }
 
 impl BreakableWorld {
-    /// Lets fragments break again, as [`WorldConfig::pieces`](crate::WorldConfig::pieces) says: `model` finds how they
-    /// vibrate. `None`: they do not, which is how a world begins.
+    /// Sets the model that computes the modes of fragments, so that they can break again according to
+    /// [`WorldConfig::pieces`](crate::WorldConfig::pieces). `None`, the initial state: they cannot.
     pub fn set_piece_model(&mut self, model: Option<Arc<dyn PieceModel>>) {
         self.piece_model = model;
     }

@@ -20,7 +20,7 @@ const FROM_ABOVE: f32 = -0.5;
 const SHARE: usize = 50;
 
 impl BreakableWorld {
-    /// Pieces that fade, with the share of their size at which they are to be drawn: from 1 to 0 within
+    /// Fading pieces with the scale at which to draw them, which falls from 1 to 0 within
     /// [`WorldConfig::fade_time`](crate::WorldConfig::fade_time). They have no collider and do not move.
     pub fn fading(&self) -> impl Iterator<Item = (RigidBodyHandle, f32)> {
         let (now, time) = (self.time(), f64::from(self.config.fade_time));

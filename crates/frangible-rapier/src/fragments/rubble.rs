@@ -82,9 +82,9 @@ impl Rubbles {
 }
 
 impl BreakableWorld {
-    /// Pieces that are merged ([`AtRest::Merge`](crate::AtRest::Merge)). Each is in the world still, fixed, at the pose at which it came to
-    /// rest, but with its colliders disabled: its part of the rubble collides in its place. So whoever draws pieces by their handles
-    /// has nothing to do; one who draws a rubble at once takes the meshes of its pieces at these poses.
+    /// Merged pieces ([`AtRest::Merge`](crate::AtRest::Merge)). Each stays in the world, fixed at its rest pose, with its colliders disabled;
+    /// its part of the rubble collides instead. Drawing pieces by their handles needs no change; to draw a rubble as one mesh, combine the
+    /// meshes of its pieces at these poses.
     pub fn merged(&self) -> impl Iterator<Item = Merged> {
         let bodies = &self.physics.bodies;
         let rubble = self.state.rubble.all.values();
@@ -102,14 +102,14 @@ impl BreakableWorld {
         })
     }
 
-    /// The rubble that a piece lies in; none of a piece that is a body of its own.
+    /// The rubble of a merged piece; `None` for a piece that is not merged.
     #[must_use]
     pub fn rubble_of(&self, piece: RigidBodyHandle) -> Option<RigidBodyHandle> {
         let place = self.state.rubble.places.get(&key(piece))?;
         Some(self.state.rubble.all.get(&place.origin)?.body)
     }
 
-    /// The piece that is a part of a rubble's compound collider, by the number of the part, which contacts call `subshape`.
+    /// The piece behind a part of a rubble's compound collider; `part` is the `subshape` of Rapier's contacts.
     #[must_use]
     pub fn piece_of_rubble(&self, rubble: RigidBodyHandle, part: u32) -> Option<RigidBodyHandle> {
         let mut all = self.state.rubble.all.values();

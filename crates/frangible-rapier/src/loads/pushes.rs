@@ -50,8 +50,8 @@ struct Kick {
 }
 
 impl BreakableWorld {
-    /// A pressure pulse that spreads from `origin` (m): impulse per area at 1 m in Pa·s, duration in s; see
-    /// [`frangible::internals::Blast`]. It acts at the beginning of the next step, on all dynamic bodies and on held breakable ones.
+    /// Applies a pressure pulse that spreads from `origin` (m): impulse per area at 1 m in Pa·s, duration in s; see
+    /// [`frangible::internals::Blast`]. It acts at the start of the next step on all dynamic bodies and on supported breakable bodies.
     ///
     /// # Errors
     /// An origin that is not finite, an impulse or duration not above zero.
@@ -72,12 +72,12 @@ impl BreakableWorld {
         Ok(())
     }
 
-    /// A blow that a script asks for: an impulse (N·s) at a point (m), both in world axes, as if a rigid thing of 1 cm
-    /// radius had struck there, see [`frangible::internals::fracture_at`]. It acts at the beginning of the next step. The nearest
-    /// fragment gets the impulse, or the whole body when it holds; a held one passes it on to its supports.
+    /// Applies a scripted blow: an impulse (N·s) at a point (m), both in world axes, as from a rigid striker of 1 cm radius; see
+    /// [`frangible::internals::fracture_at`]. It acts at the start of the next step. The impulse goes to the nearest fragment, or to the body
+    /// if it holds; a supported body passes it to its supports.
     ///
     /// # Errors
-    /// A body that is not breakable or no longer there, a point that is not finite, an impulse of no length.
+    /// A body that is not breakable or no longer in the world, a point that is not finite, an impulse of zero.
     pub fn fracture_at(
         &mut self,
         body: RigidBodyHandle,

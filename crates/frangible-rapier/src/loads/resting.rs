@@ -162,9 +162,9 @@ fn load_on(
 }
 
 impl BreakableWorld {
-    /// Lower bound of a body's safety factor under its present load: strength over the bound of the
-    /// stress that its resting contacts and, when it is held, its own weight cause. Infinite without load; `None` for
-    /// a body that is not breakable or was never asked ([`crate::WorldConfig::resting_loads`] off, or not one step yet).
+    /// Lower bound of a body's safety factor under its current load: strength over an upper bound of the stress from its resting contacts and,
+    /// for a supported body, its weight. Infinite without load. `None` for a body that is not breakable or has not been tested yet
+    /// ([`crate::WorldConfig::resting_loads`] off, or no step yet).
     #[must_use]
     pub fn rest_margin(&self, handle: RigidBodyHandle) -> Option<f64> {
         self.state.burdens.get(&key(handle)).map(|b| b.margin)

@@ -12,8 +12,8 @@ use rapier3d::pipeline::PhysicsWorld;
 use crate::world::{BreakableWorld, key};
 
 impl BreakableWorld {
-    /// Breakable bodies that may be hit hard enough to be looked at, or give way to their load, within this time, s:
-    /// as long as there are none, steps may be coarse.
+    /// Returns the breakable bodies that may be hit hard enough to be tested, or fail under their load, within this time, s. While there are
+    /// none, steps may be longer.
     pub fn near_within(&mut self, seconds: f32) -> Vec<RigidBodyHandle> {
         let dt = std::mem::replace(&mut self.physics.integration_parameters.dt, seconds);
         let near = self.near();

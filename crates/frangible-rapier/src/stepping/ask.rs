@@ -1,4 +1,4 @@
-//! Questions about blows that have not happened.
+//! Tests of hypothetical blows.
 
 use frangible::{Body, Contact, Outcome, Striker};
 use rapier3d::dynamics::{RigidBody, RigidBodyHandle};
@@ -9,11 +9,11 @@ use crate::stepping::judge::breakable;
 use crate::world::BreakableWorld;
 
 impl BreakableWorld {
-    /// A breakable body of the world as a striker of another one, for [`Self::would_break`]: it touches at `point`, m, and flies `toward` a
-    /// direction of any length, both in world coordinates. It strikes with its mass and vibrates under the blow.
+    /// Describes a breakable body of the world as a striker for [`Self::would_break`]: it touches at `point`, m, and moves `toward` a direction
+    /// of any length, both in world coordinates. It strikes with its own mass and vibration.
     ///
     /// # Errors
-    /// No breakable body of this handle, a number that is not finite, a direction of no length.
+    /// A handle without a breakable body, a number that is not finite, a direction of length zero.
     pub fn striker(
         &self,
         handle: RigidBodyHandle,
@@ -43,12 +43,12 @@ impl BreakableWorld {
         Ok((breakable(&self.state.breakables, handle)?, rigid))
     }
 
-    /// Returns true if a blow would break a body into pieces, all in world coordinates: the striker flies `toward` a direction of any length at
-    /// `speed`, m/s, against the body's `point`, m. Nothing in the world changes. A game asks it before an arrow is drawn, or to show
-    /// where a wall would give way; a blow that is far too weak costs microseconds, one that breaks as much as the break.
+    /// Returns true if a blow would break a body into pieces, without changing the world. The striker moves `toward` a direction of any length
+    /// at `speed`, m/s, and hits the body at `point`, m, in world coordinates. A far too weak blow costs microseconds, a breaking blow as much
+    /// as the break itself. Useful for example to show where a wall would fail.
     ///
     /// # Errors
-    /// No breakable body of this handle, a number that is not finite, a direction of no length, a negative speed.
+    /// A handle without a breakable body, a number that is not finite, a direction of length zero, a negative speed.
     pub fn would_break(
         &self,
         handle: RigidBodyHandle,

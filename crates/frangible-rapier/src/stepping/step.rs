@@ -16,23 +16,22 @@ use crate::timings::{StepTimings, Watch};
 use crate::world::BreakableWorld;
 
 impl BreakableWorld {
-    /// Advances by one time step; returns the breaks in it.
+    /// Advances the world by one time step and returns the breaks in it.
     ///
     /// # Errors
-    /// The fracture refused an asset or a contact. The step is complete and the body whole: go on, or remove it.
+    /// The fracture model rejected an asset or a contact. The step is complete and the body whole: continue, or remove the body.
     pub fn step(&mut self) -> Result<&[BreakEvent], WorldError> {
         self.step_for(Callbacks::NONE)
     }
 
-    /// [`step`](Self::step) with hooks and an event handler of the caller's own, as Rapier's pipeline takes them.
+    /// Like [`step`](Self::step), with the caller's own hooks and event handler.
     ///
-    /// A step in which a body breaks is undone and taken again. Events of an undone step are dropped; those of the step that stands come
-    /// once it does, in the order in which Rapier spoke. Hooks are asked in every step taken. Colliders of fragments inherit
-    /// what hooks and events their body's collider asked for, and have [`ActiveHooks::MODIFY_SOLVER_CONTACTS`] of our own, so
-    /// `modify_solver_contacts` is asked of fragments in any case.
+    /// A step in which a body breaks is undone and repeated. Events of an undone step are dropped; events of the final step are delivered
+    /// afterwards, in Rapier's order. Hooks are called in every attempt. Colliders of fragments inherit the active hooks and events of their
+    /// body's collider and always have [`ActiveHooks::MODIFY_SOLVER_CONTACTS`], so `modify_solver_contacts` is called for all fragments.
     ///
     /// # Errors
-    /// Those errors that [`step`](Self::step) has.
+    /// The errors of [`step`](Self::step).
     ///
     /// [`ActiveHooks::MODIFY_SOLVER_CONTACTS`]: rapier3d::pipeline::ActiveHooks::MODIFY_SOLVER_CONTACTS
     pub fn step_with(

@@ -42,26 +42,25 @@ use crate::mesh::{MassProperties, RenderMesh, TriMesh};
 pub struct Fragment {
     /// Closed surface, m, in the **fragment frame**: origin at the piece's centre of mass, axes of the parent's body frame.
     pub mesh: TriMesh,
-    /// Fragment on the other side of each crack face, `mesh.triangles[outer_triangles..]`: its place in
-    /// [`Fracture::fragments`](crate::Fracture::fragments), where it has the same face turned round; [`Fragment::PARTED`] where an earlier break took
-    /// it away.
+    /// For each crack face, `mesh.triangles[outer_triangles..]`, the index in [`Fracture::fragments`](crate::Fracture::fragments) of the fragment
+    /// on its other side, which has the same face reversed; [`Fragment::PARTED`] for a face of an earlier break.
     pub neighbours: Vec<u32>,
-    /// Surface to draw instead of `mesh` where the asset has the [surface its author drew](crate::Asset::render).
+    /// Surface to draw instead of `mesh`, if the asset has an [authored surface](crate::Asset::render).
     pub render: Option<RenderMesh>,
     /// Mass properties; `centre` is in the **parent's body frame**.
     pub mass: MassProperties,
-    /// The piece's share of the parent's convex cells: cell number and the corner points of the share, m, fragment frame.
+    /// The parts of the parent's convex cells that belong to this piece: cell number and corner points, m, fragment frame.
     pub cell_shares: Vec<(u32, Vec<Vec3>)>,
-    /// True if it has one of the [supported nodes](crate::Asset::supported): something outside still holds it.
+    /// True if it has one of the [supported nodes](crate::Asset::supported) and so stays fixed.
     pub supported: bool,
-    /// Velocity of its centre of mass against the rigid motion that the whole body has after the blow, m/s, body frame of the parent. Zero for all
-    /// fragments where no piece had parted while the blow was followed.
+    /// Velocity of its centre of mass relative to the rigid motion of the whole body after the blow, m/s, body frame of the parent. Zero for all
+    /// fragments if no piece separated during the blow.
     pub velocity: DVec3,
-    /// Angular velocity against that motion, rad/s.
+    /// Angular velocity relative to that motion, rad/s.
     pub angular_velocity: DVec3,
 }
 
 impl Fragment {
-    /// Entry of [`Fragment::neighbours`] for a crack face of an earlier break: what was there is no fragment of this break.
+    /// Entry of [`Fragment::neighbours`] for a crack face of an earlier break.
     pub const PARTED: u32 = u32::MAX;
 }
