@@ -15,23 +15,23 @@ use frangible::{Body, Fracture, FractureConfig, InputError};
 use crate::work::{Promise, Workers};
 use crate::{BreakFailed, BreakableBody, Broken};
 
-/// Settings for fragments that break again: which do, and from when. A [`BreakableBody`] on a fragment shows that it can.
+/// Resource with the settings of fragments that can break again. Such a fragment has a [`BreakableBody`].
 #[derive(Resource, Clone)]
 pub struct BreakAgain {
-    /// Finds how pieces vibrate: `frangible_bake::pieces::Pieces`, or a model of the game's own. Default none: fragments are plain bodies.
+    /// Model that computes the modes of pieces: `frangible_bake::pieces::Pieces` or a custom one. Default none: fragments are plain bodies.
     pub model: Option<Arc<dyn PieceModel>>,
     /// A fragment breaks again if it comes from fewer breaks than this, itself included. Default 3.
     pub generations: u32,
-    /// Lighter fragments do not break again, kg. Default 2e-3, a shard of glass 20 mm wide.
+    /// Smallest mass of a fragment that can break again, kg. Default 2e-3, a shard of glass 20 mm wide.
     pub least_mass: f64,
-    /// Fragments of fewer uncut tetrahedra do not. Default 60.
+    /// Smallest number of uncut tetrahedra of a fragment that can break again. Default 60.
     pub least_tets: usize,
-    /// Age from which a fragment can break. Default 0.4 s. A step waits for a model that is not ready by then.
+    /// Age at which a fragment becomes breakable. Default 0.4 s. A step waits for modes that are not ready by then.
     pub delay: Duration,
-    /// Bodies that are being made at one time at most; of a break the largest fragments come first, and those that find no place stay plain.
-    /// Default 4: finding the modes of a piece takes one core some tens of milliseconds.
+    /// Largest number of bodies whose modes are computed at the same time. The largest fragments of a break come first; those that exceed the
+    /// limit stay plain bodies. Default 4: the modes of a piece take some tens of milliseconds on one core.
     pub at_once: usize,
-    /// Find new modes for bodies that are cracked but whole, too. Default on.
+    /// Also computes new modes for bodies that are cracked but not broken. Default on.
     pub cracked: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Limits on the number of pieces, and the treatment of those that rest.
+//! Limits on the number of pieces, and the treatment of pieces at rest.
 
 use std::collections::VecDeque;
 use std::time::Duration;
@@ -8,40 +8,40 @@ use frangible::Fragment;
 
 use crate::{Broken, FragmentOf};
 
-/// Limits on the number of pieces of broken bodies, on the duration of a step with them, and on the mass below which they do not matter. Pieces that
-/// something outside holds do not count and stay.
+/// Resource with limits on the number of pieces, on the duration of a physics step, and on the mass of pieces. Supported pieces do not count
+/// and are never removed.
 #[derive(Resource, Clone, Debug, PartialEq)]
 pub struct DebrisBudget {
-    /// Pieces kept at most. Default 1000. Those of the oldest break go first, of one break the lightest.
+    /// Largest number of pieces. Default 1000. Pieces of the oldest break are removed first, the lightest of a break first.
     pub pieces: usize,
-    /// Longest that a step of physics may take in the mean of the last ones: while it takes longer, one in fifty pieces goes in each step.
-    /// Default none. With it two runs are no longer alike, as they hang on the speed of the machine.
+    /// Largest mean duration of recent physics steps: while it is exceeded, each step removes one in fifty pieces. Default none. A value makes
+    /// runs depend on the speed of the machine and so not reproducible.
     pub step_time: Option<Duration>,
-    /// Lighter fragments are dust: without a collider they fall through everything, cost next to nothing, and are despawned
-    /// [`DebrisBudget::dust_time`] after the break. kg, default 1e-5, a chip of glass 1.5 mm wide.
+    /// Mass below which fragments are dust, kg: without a collider they fall through everything, cost almost nothing, and are despawned
+    /// [`DebrisBudget::dust_time`] after the break. Default 1e-5, a chip of glass 1.5 mm wide.
     pub dust_mass: f64,
-    /// Default 1 s.
+    /// Time after the break at which dust is despawned. Default 1 s.
     pub dust_time: Duration,
-    /// Treatment of pieces that Avian has let sleep for [`DebrisBudget::rest_time`]. Default [`AtRest::Sleep`].
+    /// Treatment of pieces that have slept in Avian for [`DebrisBudget::rest_time`]. Default [`AtRest::Sleep`].
     pub at_rest: AtRest,
-    /// Default 2 s.
+    /// Time of sleep after which [`DebrisBudget::at_rest`] applies. Default 2 s.
     pub rest_time: Duration,
-    /// A piece that goes loses its collider and shrinks to nothing in this time. Default zero: it is gone at once.
+    /// Time in which a removed piece, without its collider, shrinks to nothing. Default zero: it is removed at once.
     pub fade_time: Duration,
 }
 
-/// Treatment of pieces that rest.
+/// Treatment of pieces at rest.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum AtRest {
     /// Pieces sleep until something touches them.
     #[default]
     Sleep,
-    /// Pieces become static: nothing moves them any more, and nothing has to be solved for them. They break again as others do.
+    /// Pieces become static, so nothing moves them and they cost no solver time. They can still break again.
     Freeze,
-    /// Pieces of one body become one static body, its [`Rubble`](crate::Rubble), with one collider and one mesh for its outer and one for its crack
-    /// faces. Their own entities go, and they neither break again nor count any more.
+    /// Pieces of one body are merged into one static body, its [`Rubble`](crate::Rubble), with one collider, one mesh for the outer faces and one
+    /// for the crack faces. Their own entities are despawned; they cannot break again and no longer count.
     Merge,
-    /// Pieces go.
+    /// Pieces are removed.
     Go,
 }
 

@@ -1,4 +1,4 @@
-//! Draws over bodies the things that decide whether they break: weak points, the last blow's contacts, and the point of highest stress.
+//! Gizmos for debugging breaks: weak points, the contacts of the last blow, and the point of highest stress.
 
 use bevy::prelude::*;
 use frangible::ImpactReport;
@@ -7,19 +7,19 @@ use frangible::internals::outcome::ContactReport;
 use crate::meshes::out;
 use crate::{BreakableBody, Broke, Held};
 
-/// Draws [`FrangibleGizmos`] over all breakable bodies. It needs Bevy's own `GizmoPlugin`, which `DefaultPlugins` have.
+/// Plugin that draws [`FrangibleGizmos`] over all breakable bodies. Requires Bevy's `GizmoPlugin`, which is part of `DefaultPlugins`.
 #[derive(Default)]
 pub struct FrangibleGizmosPlugin;
 
-/// Settings of the gizmos. Change them, or switch them off, in Bevy's `GizmoConfigStore`.
+/// Settings of the gizmos. Change or disable them in Bevy's `GizmoConfigStore`.
 #[derive(Clone, Reflect, GizmoConfigGroup)]
 #[reflect(Default)]
 pub struct FrangibleGizmos {
-    /// A cross at each place where a crack may start: red at the weakest, the paler the stronger. Default on.
+    /// Draw a cross at each weak point, red for the weakest and paler for stronger ones. Default on.
     pub weak_points: bool,
-    /// An arrow for each contact of the last blow, and a ball where its stress was highest. Default on.
+    /// Draw an arrow for each contact of the last blow, and a ball at its highest stress. Default on.
     pub blows: bool,
-    /// Half the length of a cross and radius of the ball, m. Default 2e-3.
+    /// Half the length of a cross, and radius of the ball, m. Default 2e-3.
     pub size: f32,
     /// Length of an arrow per impulse, m/(N·s). Default 0.1.
     pub scale: f32,
@@ -41,7 +41,7 @@ impl Default for FrangibleGizmos {
 pub struct LastBlow {
     /// Position of each contact, m, body frame, and its impulse, N·s.
     pub contacts: Vec<(Vec3, Vec3)>,
-    /// Point of highest stress, m, body frame; none where no weak point had to be looked at.
+    /// Point of highest stress, m, body frame; `None` if no weak point had to be evaluated.
     pub peak: Option<Vec3>,
     /// That stress over the strength.
     pub share: f32,

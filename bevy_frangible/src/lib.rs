@@ -1,8 +1,8 @@
-//! Bodies that break for physical reasons, in Bevy.
+//! Physically based brittle fracture for Bevy.
 //!
-//! A body is baked once, outside the game, into a `.frangible` file. In the game it is an entity with [`Breakable`]: when it is hit hard
-//! enough its entity loses its collider and mesh, and fragments appear as entities of their own, each with a mesh of its outer and
-//! one of its crack faces.
+//! A body is baked once, outside the game, into a `.frangible` file. In the game it is an entity with [`Breakable`]: if it is hit hard
+//! enough, its entity loses collider and mesh, and fragments appear as separate entities, each with a mesh for its outer faces and one
+//! for its crack faces.
 //!
 //! ```no_run
 //! use bevy::prelude::*;
@@ -27,16 +27,15 @@
 //! ```
 //!
 //! # Layers
-//! - Without an engine: the asset and its loader, [`Breakable`], [`Blow`] to send, [`Broke`], [`Held`] and [`BreakFailed`] to observe,
-//!   fragments with meshes and the relationship [`FragmentOf`]; [`BreakAgain`] for fragments that break again, [`DebrisBudget`] for how many
-//!   there may be.
-//! - Feature `avian` (default): colliders and masses, bodies that break inside the physics step, by collision hooks, and under what
-//!   they carry.
-//! - Feature `sound`: what breaks is heard where an entity has `Ears`, as samples in a queue.
+//! - Independent of a physics engine: the asset and its loader, [`Breakable`], the event [`Blow`] to send, the events [`Broke`], [`Held`] and
+//!   [`BreakFailed`] to observe, fragments with meshes and the relationship [`FragmentOf`], [`BreakAgain`] for fragments that break again, and
+//!   [`DebrisBudget`] for their number.
+//! - Feature `avian` (default): colliders and masses, breaks inside the physics step by collision hooks, and breaks under sustained loads.
+//! - Feature `sound`: the sound of breaking bodies at an entity with `Ears`, as a queue of samples.
 //!
 //! # Limits
-//! A body that breaks in a step of Avian is judged pair by pair: each striker alone, and without friction. A uniform scale of the entity
-//! counts as it is when its asset is there; one that is not uniform is refused. Without a model in [`BreakAgain`] fragments are plain bodies.
+//! In a step of Avian, contacts are tested pair by pair: each striker separately, and without friction. The scale of an entity is read when its
+//! asset is loaded, and must be uniform. Without a model in [`BreakAgain`], fragments are plain bodies.
 
 mod again;
 #[cfg(feature = "avian")]
@@ -90,45 +89,45 @@ pub mod prelude {
     pub use crate::{Breaking, ColliderDetail, FrangibleHooks, MadeOf};
 }
 
-/// Lets entities with [`Breakable`] break.
+/// Plugin that lets entities with [`Breakable`] break.
 #[derive(Default)]
 pub struct FrangiblePlugin {
-    /// Switches and numbers of the fracture.
+    /// Settings of the fracture model.
     pub config: FractureConfig,
 }
 
-/// Switches and numbers of the fracture, as the plugin was given them; may be changed between steps.
+/// Settings of the fracture model, initially those of the plugin; may be changed between steps.
 #[derive(Resource, Clone, Default)]
 pub struct Fracturing(pub FractureConfig);
 
-/// An entity that can break, and the baked body that it is. Its [`Transform`] places the body's centre of mass.
+/// Component of a breakable entity: the handle of its baked body. The [`Transform`] is that of the body's centre of mass.
 #[derive(Component, Clone, Debug)]
 #[require(Transform, Visibility, Seed)]
 pub struct Breakable(pub Handle<FrangibleAsset>);
 
-/// Seed of a body's random properties. Bodies of one asset break differently with different seeds, and alike with equal ones.
+/// Component with the random seed of a body. Bodies of the same asset break differently with different seeds, and alike with equal ones.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Seed(pub u64);
 
-/// The body of a [`Breakable`] whose asset is loaded, with the cracks that it has so far.
+/// Component with the body of a [`Breakable`] whose asset is loaded, including its current cracks.
 #[derive(Component, Clone)]
 pub struct BreakableBody(pub Body);
 
-/// An entity that was broken; its [`Fragments`] are in its place.
+/// Marker of an entity that broke; its [`Fragments`] replace it.
 #[derive(Component, Clone, Copy, Debug)]
 pub struct Broken;
 
-/// A piece of an entity that broke. Its [`Transform`] places the piece's centre of mass.
+/// Relationship of a fragment to the entity that broke. The fragment's [`Transform`] is that of its centre of mass.
 #[derive(Component, Clone, Copy, Debug)]
 #[relationship(relationship_target = Fragments)]
 #[require(Transform, Visibility)]
 pub struct FragmentOf(pub Entity);
 
-/// Pieces of one body that came to rest, as one static body: see [`AtRest::Merge`].
+/// Marker of a static body of merged pieces at rest: see [`AtRest::Merge`].
 #[derive(Component, Clone, Copy, Debug)]
 pub struct Rubble;
 
-/// The pieces of an entity that broke, largest first. They go when it is despawned.
+/// The fragments of an entity that broke, largest first. They are despawned with it.
 #[derive(Component, Debug)]
 #[relationship_target(relationship = FragmentOf, linked_spawn)]
 pub struct Fragments(Vec<Entity>);
@@ -144,15 +143,15 @@ impl Fragments {
 #[derive(Component, Clone, Copy)]
 pub(crate) struct Born(pub(crate) Duration);
 
-/// The part of a mesh that was the body's surface. It is a child of the fragment.
+/// Marker of the mesh of a fragment's outer faces, a child of the fragment.
 #[derive(Component, Clone, Copy, Debug)]
 pub struct OuterFaces;
 
-/// The part of a mesh where the body broke. It is a child of the fragment.
+/// Marker of the mesh of a fragment's crack faces, a child of the fragment.
 #[derive(Component, Clone, Copy, Debug)]
 pub struct CrackFaces;
 
-/// Breaks a body by script: an impulse at a point, as if a rigid thing of 1 cm radius had struck there.
+/// Event to send: a scripted blow on a body, an impulse at a point as from a rigid striker of 1 cm radius.
 #[derive(EntityEvent, Clone, Copy, Debug)]
 pub struct Blow {
     /// The body.
@@ -163,7 +162,7 @@ pub struct Blow {
     pub impulse: Vec3,
 }
 
-/// A [`Blow`] gives this to the body that held, or to the piece that was struck: an engine moves it.
+/// Event: the push of a [`Blow`] on the body that held, or on the piece that was hit, for the physics engine to apply.
 #[derive(EntityEvent, Clone, Copy, Debug)]
 pub struct Pushed {
     /// Body or piece that is pushed.
@@ -174,34 +173,34 @@ pub struct Pushed {
     pub impulse: Vec3,
 }
 
-/// A body broke.
+/// Event: a body broke.
 #[derive(EntityEvent, Clone)]
 pub struct Broke {
-    /// The body: it is there still, [`Broken`], without collider and mesh.
+    /// The body, which still exists, [`Broken`], without collider and mesh.
     pub entity: Entity,
     /// Its pieces, largest first.
     pub fragments: Vec<Entity>,
-    /// Meshes, masses and how the break came about.
+    /// Meshes and masses of the pieces, and the report of the impact.
     pub fracture: Arc<Fracture>,
 }
 
-/// A body was hit and held.
+/// Event: a body was hit and did not break.
 #[derive(EntityEvent, Clone)]
 pub struct Held {
     /// The body.
     pub entity: Entity,
-    /// Strength over the stress, or over a bound of it.
+    /// Strength over the stress, or over an upper bound of it.
     pub margin: f64,
-    /// Extent of the analysis, and its results.
+    /// Report of the impact.
     pub report: ImpactReport,
 }
 
-/// Something that should have broken cannot: a file that is no baked body, an entity that is not scaled uniformly, a blow that is not finite.
+/// Event: a body cannot break, for example because its file is not a baked body, its entity is not scaled uniformly, or a blow is not finite.
 #[derive(EntityEvent, Clone, Debug)]
 pub struct BreakFailed {
     /// The body.
     pub entity: Entity,
-    /// The problem and its remedy.
+    /// Message that describes the problem and how to fix it.
     pub reason: String,
 }
 

@@ -4,17 +4,18 @@ use bevy::prelude::*;
 
 use crate::{BreakableBody, Broke, CrackFaces, FragmentOf, OuterFaces};
 
-/// Looks of a body, and of the outer and crack faces of its fragments: usually a material, `Looks<MeshMaterial3d<StandardMaterial>>`. Put it on the
-/// entity with [`Breakable`](crate::Breakable), and add a [`LooksPlugin`] for the same component.
+/// Component with the appearance of a body and of the outer and crack faces of its fragments, usually a material:
+/// `Looks<MeshMaterial3d<StandardMaterial>>`. Insert it on the entity with [`Breakable`](crate::Breakable), and add a [`LooksPlugin`] for the
+/// same component.
 #[derive(Component, Clone, Debug)]
 pub struct Looks<C: Component + Clone> {
-    /// Look of the body's former surface.
+    /// Appearance of the outer faces.
     pub outer: C,
-    /// Look of the faces along which it broke.
+    /// Appearance of the crack faces.
     pub crack: C,
 }
 
-/// Dresses bodies and fragments in [`Looks`] of a component.
+/// Plugin that applies [`Looks`] of a component to bodies and fragments.
 pub struct LooksPlugin<C>(std::marker::PhantomData<fn() -> C>);
 
 impl<C> Default for LooksPlugin<C> {

@@ -1,7 +1,7 @@
-//! Bodies that break in a world of Rapier, the one of `frangible-rapier`, in place of Avian.
+//! Breaking bodies in a Rapier world of `frangible-rapier` instead of Avian.
 //!
-//! The world is a resource and has its own bodies; entities have only handles of them, and transforms that follow. The world decides on breaks, and
-//! moves the pieces: [`FrangibleRapierPlugin`] stands in the place of [`FrangiblePlugin`](crate::FrangiblePlugin).
+//! The world is a resource with its own bodies; entities have handles to them, and their transforms follow. The world computes breaks and moves
+//! the pieces, so [`FrangibleRapierPlugin`] replaces [`FrangiblePlugin`](crate::FrangiblePlugin).
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -16,7 +16,7 @@ use crate::break_apart::{conclude, replace};
 use crate::meshes::{into, out};
 use crate::{Blow, BreakFailed, BreakableBody, Broke, FragmentOf, Judges};
 
-/// Lets entities with [`Breakable`](crate::Breakable) break in a [`RapierWorld`]. The numbers of the fracture are the world's.
+/// Plugin that lets entities with [`Breakable`](crate::Breakable) break in a [`RapierWorld`]. The fracture settings are those of the world.
 pub struct FrangibleRapierPlugin(pub WorldConfig);
 
 impl Default for FrangibleRapierPlugin {
@@ -25,12 +25,12 @@ impl Default for FrangibleRapierPlugin {
     }
 }
 
-/// The world, to put other bodies in and to ask it; it is stepped in `FixedUpdate`.
+/// Resource with the Rapier world, which is stepped in `FixedUpdate`. Use it to insert other bodies and for queries.
 #[derive(Resource)]
 pub struct RapierWorld(pub BreakableWorld);
 
-/// A body of the [`RapierWorld`]: the entity's [`Transform`] follows it, the body goes with the entity, and the entity with the body. Breakable
-/// entities and their fragments get it; a game gives it to bodies that it has put in the world itself.
+/// Component with the handle of a body of the [`RapierWorld`]. The entity's [`Transform`] follows the body; removing one of the two removes the
+/// other. Breakable entities and their fragments get it automatically; a game adds it for bodies that it inserted itself.
 #[derive(Component, Clone, Copy, Debug)]
 #[require(Transform)]
 pub struct RapierBody(pub RigidBodyHandle);

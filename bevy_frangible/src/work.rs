@@ -1,4 +1,4 @@
-//! Long work that other threads do while a game goes on. Where there are none, as on a page, it is done when it is waited for.
+//! Long computations on other threads while the game continues. Without threads, as on a web page, they run when their result is needed.
 
 #[cfg(not(target_family = "wasm"))]
 use bevy::tasks::{Task, TaskPool, TaskPoolBuilder, block_on};

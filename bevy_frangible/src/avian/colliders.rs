@@ -8,19 +8,19 @@ use frangible::{Asset as Baked, Fragment, TriMesh, glam};
 
 use crate::meshes::out;
 
-/// Detail of the colliders of bodies and fragments that become ready from now on. It decides most of the cost of a scene of hundreds of bodies. A
-/// body that the game has given a [`Collider`] keeps it. A ball touches a body's own surface, whatever its collider.
+/// Resource with the detail of the colliders of new bodies and fragments. It dominates the cost of a scene with hundreds of bodies. A body with a
+/// [`Collider`] from the game keeps it. Contacts of balls use the body's exact surface, regardless of its collider.
 #[derive(Resource, Clone, Copy, Debug, PartialEq)]
 pub struct ColliderDetail {
-    /// Convex parts of a whole body at most, 1 or more, and points of each. 1 part is the convex hull. Default 12 and 48.
+    /// Largest number of convex parts of a whole body, 1 or more, and of points of each part. 1 part is the convex hull. Default 12 and 48.
     pub whole: (usize, usize),
-    /// Limits for the hulls of a fragment that one hull does not fit. Default 4 and 24. A fragment that is held has its own surface.
+    /// The same limits for a fragment that a single hull does not fit. Default 4 and 24. A supported fragment uses its exact surface.
     pub fragment: (usize, usize),
-    /// A fragment gets one hull where hull volume / its volume is at most this. Default 1.5.
+    /// Largest ratio of hull volume to piece volume at which a fragment gets a single convex hull. Default 1.5.
     pub hull_volume_ratio: f64,
-    /// Distance within which fragments foresee contacts in a step, m: Avian's [`SpeculativeMargin`]. Default 0.05. Without a bound hundreds of pieces
-    /// that fly apart at 25 m/s see half a metre each, and so each other, which is most of what they cost. Faster ones may pass what is thinner than
-    /// their step.
+    /// Speculative contact distance of fragments, m: Avian's [`SpeculativeMargin`]. Default 0.05. Without a limit, hundreds of pieces that fly apart at
+    /// 25 m/s predict contacts within half a metre, and so with each other, which dominates their cost. Faster pieces may tunnel through bodies
+    /// thinner than their motion per step.
     pub fragments_see: f32,
 }
 

@@ -18,8 +18,8 @@ const OVERLAP_RELAXATION: f32 = 2e-3;
 /// Steps after their birth in which siblings do not bounce off each other.
 const NEWBORN_STEPS: f32 = 2.5;
 
-/// Collision hooks that break bodies: `PhysicsPlugins::default().with_collision_hooks::<FrangibleHooks>()`. A game with hooks of its own
-/// wraps them, `FrangibleHooks<MyHooks>`: its own are asked first, of the colliders that have them switched on.
+/// Collision hooks that break bodies: `PhysicsPlugins::default().with_collision_hooks::<FrangibleHooks>()`. A game with its own hooks wraps them,
+/// `FrangibleHooks<MyHooks>`; they are called first, for colliders with active hooks.
 #[derive(SystemParam)]
 pub struct FrangibleHooks<'w, 's, Inner: SystemParam + 'static = ()> {
     inner: StaticSystemParam<'w, 's, Inner>,

@@ -19,24 +19,24 @@ use crate::meshes::faces;
 use crate::work::{Promise, Workers};
 use crate::{BreakableBody, DebrisBudget, Fracturing};
 
-/// Time at which a body that breaks gives way to its fragments.
+/// Time at which a breaking body is replaced by its fragments.
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Breaking {
-    /// Inside the step, so that a ball goes on through the pane that it breaks.
+    /// Inside the step, so that a ball continues through the pane that it breaks.
     #[default]
     InsideStep,
-    /// After the step, in which the whole body takes the blow: a ball loses as much as if it had held.
+    /// After the step, in which the whole body takes the blow: a ball loses as much speed as if the body had held.
     AfterStep {
-        /// Work begun per step, in tetrahedra of the bodies' fracture meshes; one body at least. The others wait in the order of their
-        /// blows, and of several blows while one waits the fastest counts.
+        /// Work started per step, in tetrahedra of the bodies' fracture meshes; at least one body. The others wait in the order of their blows; if a
+        /// waiting body is hit several times, the fastest blow counts.
         budget: usize,
-        /// Steps from there to the break. 0: in the same step.
+        /// Number of steps from then to the break. 0: in the same step.
         delay: u32,
     },
 }
 
 impl Breaking {
-    /// About one body in each step, and three steps for it.
+    /// Starts about one body per step, with three steps to compute its break.
     #[must_use]
     pub const fn for_games() -> Self {
         Self::AfterStep {

@@ -1,10 +1,10 @@
 //! Bodies that break inside Avian's step.
 //!
-//! Avian asks its collision hooks about each pair of colliders that touches, before it solves the contacts. A breakable body is put to the
-//! fracture there, with the speeds before the solver. If it breaks, the pair's contacts are dropped for this step, so that the striker
-//! keeps its velocity; after the step the pieces take the body's place, the blow's impulse acts between them and the striker, and the
-//! cracks' energy is taken from the motion. No step has to be undone, but both go back to where they touched, so that the striker meets the
-//! pieces from outside. With [`Breaking::AfterStep`] the hooks only take note.
+//! Avian calls its collision hooks for each pair of touching colliders, before it solves the contacts. There the impact on a breakable body
+//! is evaluated with the speeds before the solver. If the body breaks, the pair's contacts are dropped for this step, so that the striker
+//! keeps its velocity; after the step the pieces replace the body, the impulse of the blow acts between them and the striker, and the energy
+//! of the cracks is taken from the motion. No step has to be undone, but both are moved back to the point of contact, so that the striker
+//! meets the pieces from outside. With [`Breaking::AfterStep`] the hooks only record the blow.
 
 mod after;
 mod bodies;
@@ -31,7 +31,7 @@ pub use resting::Carries;
 
 use crate::break_apart::Judged;
 
-/// Approach slower than this is no impact, m/s. Default 0.5; raising it asks the fracture less often.
+/// Resource with the smallest approach speed at which a contact is tested for fracture, m/s. Default 0.5; a higher value means fewer tests.
 #[derive(Resource, Clone, Copy, Debug, PartialEq)]
 pub struct ImpactSpeed(pub f32);
 
@@ -41,7 +41,7 @@ impl Default for ImpactSpeed {
     }
 }
 
-/// Material of an entity with a collider, as a striker. Without it a striker is rigid, and flat unless its collider is a ball.
+/// Component with the material of a striker, an entity with a collider. Without it the striker is rigid, and flat unless its collider is a ball.
 #[derive(Component, Clone, Debug)]
 pub struct MadeOf(pub Material);
 

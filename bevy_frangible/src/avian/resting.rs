@@ -32,11 +32,10 @@ const MOST_FORCES: usize = 16;
 /// A body whose margin is at least this, by a bound that costs next to nothing, is not analysed further.
 const EASE: f64 = 1.5;
 
-/// Load that a breakable body carries.
+/// Component with the load on a breakable body.
 #[derive(Component, Clone, Debug)]
 pub struct Carries {
-    /// Lower bound of strength over stress: the stress is the bound of what its resting contacts and, when it is held, its own weight cause. Infinite
-    /// without load.
+    /// Lower bound of strength over stress, from its resting contacts and, for a supported body, its weight. Infinite without load.
     pub margin: f64,
     forces: Vec<Force>,
     gravity: glam::Vec3,

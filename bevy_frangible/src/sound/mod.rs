@@ -1,7 +1,7 @@
-//! Sound of breaking bodies: the forces of blows, whether they break or hold, cracks, and pieces that land.
+//! Sound of blows, cracks and landing pieces.
 //!
-//! [`frangible_sound`] makes pressures at the ears of it, in the time of the fixed steps; no audio device is needed, and two runs give the
-//! same samples. The [`Outlet`] in the resource [`Heard`] is a queue of samples for whoever plays them.
+//! [`frangible_sound`] computes the sound pressure at the ears in the time of the fixed steps, without an audio device and reproducibly. The
+//! [`Outlet`] in the resource [`Heard`] is a queue of samples for playback.
 
 mod cast;
 mod pushes;
@@ -20,15 +20,15 @@ use crate::{BreakableBody, Broke, Broken, Held};
 
 use cast::{Playing, Troupe};
 
-/// Plugin for the sound of breaking bodies, which an entity with [`Ears`] hears. Touches and slides are heard in Avian's world; blows and cracks in
-/// any.
+/// Plugin for the sound of breaking bodies at an entity with [`Ears`]. Blows and cracks sound with any physics engine, touches and slides only with
+/// Avian.
 #[derive(Clone, Debug)]
 pub struct FrangibleSoundPlugin {
     /// Samples per second. Default 48 000.
     pub rate: f64,
-    /// Height, m, and material of a level floor, which reflects sound and is struck itself. Default stone at y = 0.
+    /// Height, m, and material of a level floor, which reflects sound and sounds itself when struck. Default: stone at y = 0.
     pub floor: Option<(f32, Material)>,
-    /// Pressure that is played at full scale, Pa; above 0.7 of it the curve bends. Default 20.
+    /// Sound pressure at full scale, Pa; a soft limiter acts above 0.7 of it. Default 20.
     pub full_scale: f64,
 }
 
@@ -42,12 +42,12 @@ impl Default for FrangibleSoundPlugin {
     }
 }
 
-/// Listener, usually the camera: its position, and its own x as the direction to the right. Without such an entity nothing is heard.
+/// Marker of the listener, usually the camera; its local x axis is the direction to the right. Without such an entity there is no sound.
 #[derive(Component, Clone, Copy, Debug, Default)]
 #[require(Transform)]
 pub struct Ears;
 
-/// A world's sound, step by step.
+/// Resource with the sound of the world, step by step.
 #[derive(Resource)]
 pub struct Heard {
     hearing: Hearing,
@@ -88,14 +88,13 @@ impl Heard {
         })
     }
 
-    /// The pressures that came with the last fixed step, Pa, left and right in turn.
+    /// Sound pressures of the last fixed step, Pa, left and right interleaved.
     #[must_use]
     pub fn pressures(&self) -> &[f32] {
         &self.pressures
     }
 
-    /// The queue of samples for a loudspeaker, −1 to 1, left and right in turn; its clones are one and the same. At most half a second
-    /// waits in it.
+    /// The queue of samples for playback, −1 to 1, left and right interleaved. Clones share one queue, which holds at most half a second.
     #[must_use]
     pub fn outlet(&self) -> Outlet {
         self.outlet.clone()

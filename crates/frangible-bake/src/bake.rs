@@ -1,9 +1,9 @@
-//! The front door: shape and material in, asset out.
+//! The main entry point of the bake: shape and material in, asset out.
 //!
-//! A mesh that is too coarse is noticed: its volume is compared with that of the solid on a grid four times as fine, and the
-//! lattice is refined while more than 3 % is missing. Shells are meshed with one and a half cells per wall from the start.
+//! A mesh that is too coarse is refined: its volume is compared with that of the solid on a grid four times as fine, and the lattice is
+//! refined while more than 3 % is missing. Shells are meshed with one and a half cells per wall from the start.
 //!
-//! Imported quadratic tetrahedra, up to 20 000 of them, carry their own modes; larger meshes are covered by a lattice like any solid.
+//! Up to 20 000 imported quadratic tetrahedra are used as the analysis mesh; larger meshes are covered by a lattice like any solid.
 
 use std::ops::ControlFlow;
 
@@ -42,36 +42,34 @@ pub struct BakeSpec {
     pub name: String,
     /// Geometry.
     pub shape: Shape,
-    /// Material; only E, ν and ρ matter to the modes, the rest is passed on.
+    /// Material; only E, ν and ρ affect the modes, the other values are stored in the asset.
     pub material: Material,
-    /// Elements of the analysis mesh; `None`: about 3 000 of them (5 000 for thin walls). A solid is covered by as many elements as its volume
-    /// would hold of this size.
+    /// Element size of the analysis mesh; `None`: about 3 000 elements (5 000 for thin walls). For a solid, the size sets the number of elements
+    /// of the lattice, from the volume of the solid.
     pub analysis: Option<MeshSize>,
-    /// Elements of the fracture mesh; `None`: about 42 000 of them.
+    /// Element size of the fracture mesh; `None`: about 42 000 elements.
     pub fracture: Option<MeshSize>,
-    /// Number of vibration modes that the asset keeps, 1 to [`MOST_MODES`], default [`USUAL_MODES`]. More of them make the stress about a
-    /// sharp impact truer, at proportional cost in memory, and more in bake time.
+    /// Number of vibration modes of the asset, 1 to [`MOST_MODES`], default [`USUAL_MODES`]. More modes make the stress around a sharp impact
+    /// more accurate, and cost proportional memory and more than proportional bake time.
     pub modes: usize,
-    /// Number of the lowest modes that a blow follows through time, 1 and up; the others answer its force statically, which costs
-    /// no steps. Default `None`: the fewest from which on following more changes no peak tension by 3 % under a hard blow,
-    /// found by trial on the body; all of 60 or fewer.
+    /// Number of the lowest modes that are integrated through time during a blow, 1 or more; the others respond statically, which costs no
+    /// time steps. Default `None`: determined by trial blows, as the smallest number beyond which more modes change no peak tension by 3 %
+    /// under a hard blow; all modes if there are 60 or fewer.
     pub followed: Option<usize>,
-    /// Seed of the irregularity of the fracture mesh, default 1.
+    /// Random seed for the irregularity of the fracture mesh, default 1.
     pub seed: u64,
-    /// Supports of the body, default none. The asset has the modes of the held body, and knows which of its nodes are
-    /// held.
+    /// Supports of the body, default none. The asset gets the modes of the supported body and the list of its supported nodes.
     pub supports: Vec<Support>,
-    /// Named parts of the shape, for supports by name; default none. [`import_mesh`](crate::import_mesh) finds those of a
-    /// file.
+    /// Named parts of the shape, for supports by name; default none. [`import_mesh`](crate::import_mesh) reads them from a file.
     pub groups: Vec<Group>,
-    /// The surface as its author drew it, m, in the frame of the shape; only carried along.
+    /// The authored surface, m, in the frame of the shape; stored in the asset for rendering.
     pub render: Option<RenderSurface>,
-    /// Token by which another thread ends the bake early, default never.
+    /// Token with which another thread can cancel the bake.
     pub cancel: CancelToken,
 }
 
 impl BakeSpec {
-    /// Default sizes, modes and seed.
+    /// Makes a specification with default sizes, modes and seed.
     #[must_use]
     pub fn new(name: impl Into<String>, shape: Shape, material: Material) -> Self {
         Self {
@@ -90,11 +88,11 @@ impl BakeSpec {
         }
     }
 
-    /// A body for games: about 1 500 tetrahedra for cracks and 40 modes, so that it breaks in about 20 ms instead of 160. Its cracks are
-    /// coarser than those of [`BakeSpec::new`].
+    /// Makes a specification for games: a fracture mesh of about 1 500 tetrahedra and 40 modes, so that a break takes about 20 ms instead of
+    /// 160. Cracks are coarser than with [`BakeSpec::new`].
     ///
     /// # Errors
-    /// A shape that has no volume, by its number or station at fault.
+    /// A shape without volume; the error names the invalid number or station.
     pub fn for_games(
         name: impl Into<String>,
         shape: Shape,
@@ -114,13 +112,13 @@ const GAME_TETS: f64 = 1500.0;
 /// Modes of a body for games.
 const GAME_MODES: usize = 40;
 
-/// Bakes an asset: meshes the shape twice, finds its modes, and ties the two meshes together.
+/// Bakes an asset: makes the two meshes, computes the vibration modes, and maps the meshes to each other.
 ///
 /// The body frame has its origin at the centre of mass of the fracture mesh and the axes of the shape.
 ///
 /// # Errors
-/// The first number, station, mode or point at fault; each message says how to mend it. [`BakeError::Cancelled`] when
-/// [`BakeSpec::cancel`] was used.
+/// The first invalid number, station, mode or point, with a hint how to fix it; [`BakeError::Cancelled`] after a cancellation by
+/// [`BakeSpec::cancel`].
 pub fn bake(
     spec: &BakeSpec,
     progress: &mut dyn FnMut(Progress),

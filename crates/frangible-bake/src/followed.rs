@@ -1,9 +1,9 @@
-//! Number of modes that a blow on the body follows through time.
+//! Number of modes that are integrated through time during a blow.
 //!
-//! The others answer the force of the moment statically, q = ξ F/λ: a mode much faster than the blow does just that, and costs
-//! no time steps. So the number depends on the blow. A hard one is assumed: a steel ball of a tenth of the body's mass
-//! with a radius of 10 mm at 5 m/s, Hertz's duration on a flat place, a half-sine of force inwards along the normal. A softer or
-//! slower one lasts longer, and needs fewer.
+//! The others respond statically to the current force, q = ξ F/λ, which is accurate for modes much faster than the blow and costs no time
+//! steps. So the number depends on the blow. A hard blow is assumed: a steel ball with a tenth of the body's mass and a radius of 10 mm at
+//! 5 m/s, with Hertz's duration on a flat surface and a half-sine force inwards along the normal. Softer or slower blows last longer and
+//! need fewer modes.
 //! A body with [branches](has_branches) is hit by a ball of a tenth of a branch: the branch and not the body resists at its end, so
 //! that the contact is shorter and excites more modes. Of twelve arms, twelve modes are one bending of each.
 //!

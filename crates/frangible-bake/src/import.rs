@@ -15,19 +15,18 @@ use crate::shapes::{Shape, SolidShape};
 /// Places at which the walls are measured: the twentieth of them that is thinnest is then twenty or so.
 const SAMPLES: usize = 400;
 
-/// Settings for taking in a mesh.
+/// Settings for importing a mesh.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ImportOptions {
-    /// Longest side of the body, m; `None` (default): the file's unit is the metre.
+    /// Length of the longest side of the body, m; `None` (default): the file is in metres.
     pub size: Option<f64>,
-    /// Wanted tetrahedra of the fracture mesh, default 42 000; thin shells take more when they need them.
+    /// Requested number of tetrahedra of the fracture mesh, default 42 000; thin shells get more if needed.
     pub tets: usize,
-    /// Most tetrahedra, default 250 000 or three times `tets`, whichever is more.
+    /// Largest number of tetrahedra; default 250 000 or three times `tets`, whichever is larger.
     pub most: Option<usize>,
-    /// Thickness of a wall along the mesh's surface, m, half of it on each side, instead of a filled inside; `None`
-    /// (default): the body is the solid that the mesh encloses. Such a body is not drawn with its author's surface, which lies in the
-    /// middle of the wall.
+    /// Thickness of a wall centred on the surface of the mesh, m; `None` (default): the body is the solid that the mesh encloses. A wall is
+    /// not rendered with the authored surface, which lies in its middle.
     pub wall: Option<f64>,
 }
 
@@ -42,16 +41,16 @@ impl Default for ImportOptions {
     }
 }
 
-/// A mesh taken in.
+/// An imported mesh.
 #[derive(Clone, Debug)]
 pub struct Imported {
     /// The solid inside the mesh.
     pub shape: Shape,
-    /// The mesh as drawn, in the frame of the shape, unless the body is a wall along it: hand it to
-    /// [`BakeSpec::render`](crate::BakeSpec::render).
+    /// The authored surface in the frame of the shape, for [`BakeSpec::render`](crate::BakeSpec::render); `None` if the body is a wall along
+    /// the mesh.
     pub render: Option<RenderSurface>,
-    /// Its groups, objects and materials by name, in the frame of the shape: hand them to
-    /// [`BakeSpec::groups`](crate::BakeSpec::groups), for supports by name.
+    /// Groups, objects and materials by name, in the frame of the shape, for [`BakeSpec::groups`](crate::BakeSpec::groups) and supports by
+    /// name.
     pub groups: Vec<Group>,
     /// Repairs that were made.
     pub mended: RepairReport,
@@ -61,10 +60,10 @@ pub struct Imported {
     pub similarity: Similarity,
 }
 
-/// Repairs a mesh, finds its inside and its walls.
+/// Repairs a mesh and determines its interior and wall thickness.
 ///
 /// # Errors
-/// A mesh that cannot be meant as a solid, or a number that cannot be used.
+/// A mesh that does not describe a solid, or an invalid number.
 pub fn import_mesh(mesh: &InputMesh, options: &ImportOptions) -> Result<Imported, BakeError> {
     positive("the number of tetrahedra wanted", options.tets as f64)?;
     let (mut surface, mended) = repair(mesh)?;

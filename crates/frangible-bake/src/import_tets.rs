@@ -7,23 +7,23 @@ use frangible_mesh::{Similarity, TetInput, TetMend, mend_tets};
 use crate::error::{BakeError, positive};
 use crate::shapes::{AnalysisChoice, Shape, TetShape};
 
-/// Tetrahedra taken in.
+/// Imported tetrahedra.
 #[derive(Clone, Debug)]
 pub struct ImportedTets {
-    /// The body; its groups are in it.
+    /// The body, including its groups.
     pub shape: Shape,
     /// Repairs that were made.
     pub mend: TetMend,
-    /// Groups of tetrahedra, if there are several: a body has one material, so they only name places.
+    /// Names of the groups of tetrahedra, if there are several. They do not get different materials, because a body has only one.
     pub volumes: Vec<String>,
     /// Transform from the file's coordinates to those of the shape.
     pub similarity: Similarity,
 }
 
-/// Mends and checks tetrahedra; `size`: longest side, m, or the file's unit is the metre.
+/// Repairs and checks tetrahedra. `size`: length of the longest side, m; `None`: the file is in metres.
 ///
 /// # Errors
-/// Tetrahedra that are no body, or a size that cannot be used.
+/// Tetrahedra that do not form a body, or an invalid size.
 pub fn import_tets(
     input: &TetInput,
     size: Option<f64>,

@@ -1,14 +1,12 @@
 //! Bakes shapes for `frangible`: tetrahedra, quadratic finite elements, vibration modes.
 //!
-//! A bake runs once per kind of object, in f64, and gives the immutable [`frangible::Asset`] that the
-//! run time shares among all bodies of that kind. [`bake()`] is the front door; its stages can be used on
-//! their own: [`shapes`] gives tetrahedra, [`fem`] stiffness and mass, [`eigen`] the modes, [`embed`]
-//! locates points in the analysis mesh, [`surface`] finds normals and curvature.
+//! A bake runs once per kind of object, in f64, and makes the immutable [`frangible::Asset`] that all bodies of that kind share.
+//! [`bake()`] is the main entry point; its stages can be used separately: [`shapes`] makes tetrahedra, [`fem`] stiffness and mass,
+//! [`eigen`] the modes, [`embed`] locates points in the analysis mesh, and [`surface`] computes normals and curvature.
 //!
-//! Two meshes are made of every shape. The coarse one has quadratic elements and carries the modes;
-//! the fine one has linear elements, irregular on purpose, and carries the cracks. A solid of any shape (a mesh file by
-//! [`import_mesh`], a signed distance, [`Shape::ready`]) is filled by `frangible-mesh`; its coarse elements merely cover it
-//! ([`fem::Cover`]).
+//! Every shape gets two meshes: a coarse analysis mesh of quadratic elements for the modes, and a fine, deliberately irregular fracture
+//! mesh of linear elements for the cracks. A general solid (a mesh file by [`import_mesh`], a signed distance function,
+//! [`Shape::ready`]) is filled with tetrahedra by `frangible-mesh`, and its analysis mesh is a lattice that covers it ([`fem::Cover`]).
 //!
 //! ```
 //! use frangible::{Body, Contact, FractureConfig, Material, Outcome, Striker, glam::Vec3, impact};
@@ -83,10 +81,9 @@ pub use shapes::{
 };
 pub use supports::{Region, Support, check_groups, check_supports};
 
-/// Most modes that an asset keeps: the bake of a drinking glass with this many takes twice as long as with 120, and its file has 36 MB.
+/// Largest number of modes of an asset. With this many, the bake of a drinking glass takes twice as long as with 120, and its file has 36 MB.
 pub const MOST_MODES: usize = 400;
 
-/// Modes that an asset keeps unless told otherwise. Measured (`cargo run --release -p frangible-bake --example modes_kept`): a
-/// drinking glass bakes 1.4 times as long as with 120. A blow on it is followed by 123 of them, and by 90 of 400; a brick needs but 20
-/// followed, and 30 of 120.
+/// Default number of modes of an asset. Measured (`cargo run --release -p frangible-bake --example modes_kept`): a drinking glass bakes 1.4
+/// times as long as with 120. A blow on it integrates 123 of them through time, and 90 of 400; a blow on a brick only 20, and 30 of 120.
 pub const USUAL_MODES: usize = 200;

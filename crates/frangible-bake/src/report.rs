@@ -12,11 +12,11 @@ use crate::phase::Phase;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Stage {
-    /// Meshing the shape, twice.
+    /// Making the two meshes.
     Mesh,
     /// Assembling stiffness and mass.
     Assemble,
-    /// Finding the vibration modes; nearly all of the time.
+    /// Computing the vibration modes, which takes nearly all of the time.
     Modes,
     /// Locating the fracture mesh in the analysis mesh.
     Embed,
@@ -26,7 +26,7 @@ pub enum Stage {
     Walls,
     /// Peak stress of each mode.
     Stress,
-    /// Finding the number of modes that a blow follows.
+    /// Determining the number of modes that are integrated through time.
     Followed,
 }
 
@@ -48,9 +48,9 @@ impl fmt::Display for Stage {
 /// Progress of a bake.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
-    /// The stage that runs.
+    /// The current stage.
     pub stage: Stage,
-    /// Share of the stage that is done, 0..=1.
+    /// Completed share of the stage, 0..=1.
     pub fraction: f64,
 }
 
@@ -82,21 +82,21 @@ impl MeshReport {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct BakeReport {
-    /// The mesh that carries the modes.
+    /// The analysis mesh.
     pub analysis: MeshReport,
-    /// The mesh that carries cracks.
+    /// The fracture mesh.
     pub fracture: MeshReport,
-    /// Report of filling a solid with tetrahedra; `None` for shapes that are meshed by a rule.
+    /// Report of filling a solid with tetrahedra; `None` for boxes and bodies of revolution.
     pub tetrahedra: Option<TetReport>,
     /// Unknowns of the eigenvalue problem.
     pub unknowns: usize,
-    /// Rigid motions that the supports leave: six of a free body, none of a clamped one.
+    /// Number of rigid-body modes left by the supports: six for a free body, none for a clamped one.
     pub rigid_motions: usize,
     /// The first ten natural frequencies, Hz.
     pub frequencies: Vec<f64>,
     /// Modes that the asset keeps.
     pub modes: usize,
-    /// Number of the lowest modes that a blow follows through time; the others answer statically.
+    /// Number of the lowest modes that are integrated through time during a blow; the others respond statically.
     pub followed: usize,
     /// Largest relative residual ‖Kφ − λMφ‖ / ‖Kφ‖ of all modes.
     pub max_residual: f64,

@@ -1,4 +1,4 @@
-//! Supports of a body: parts of it that do not move, in all directions or in some.
+//! Supports of a body: parts that are fixed in some or all directions.
 
 use frangible::glam::DVec3;
 use frangible_mesh::did_you_mean;
@@ -13,18 +13,17 @@ const TOLERANCE: f64 = 1e-6;
 /// Most names of groups in a message.
 const MOST_SHOWN: usize = 20;
 
-/// A part of a body that something outside holds.
+/// A fixed part of a body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Support {
-    /// The part that is held; what of the region lies outside the body does not matter.
+    /// Region whose intersection with the body is fixed.
     pub region: Region,
-    /// For each axis of the frame of the shape, true if the part is held along it: all of them clamp it, z alone lets it slide in the
-    /// plane across z.
+    /// For each axis of the frame of the shape, true if the part is fixed along it. All three clamp it; z alone lets it slide in the xy plane.
     pub axes: [bool; 3],
 }
 
 impl Support {
-    /// Held along all axes.
+    /// Makes a support that is fixed along all axes.
     #[must_use]
     pub const fn clamped(region: Region) -> Self {
         Self {
@@ -34,18 +33,18 @@ impl Support {
     }
 }
 
-/// A part of space, m, in the frame of the shape, or a part of the body by its name.
+/// A region of space, m, in the frame of the shape, or a named part of the body.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Region {
-    /// Everything behind the plane through `point` with the outward `normal` (of any length).
+    /// The half-space behind the plane through `point` with the outward `normal`, of any length.
     HalfSpace {
         /// A point of the plane, m.
         point: DVec3,
-        /// Away from the region.
+        /// Direction out of the region.
         normal: DVec3,
     },
-    /// A box along the axes; a corner may be infinite.
+    /// An axis-aligned box; corners may be infinite.
     Box {
         /// Lowest corner, m.
         low: DVec3,
@@ -59,8 +58,8 @@ pub enum Region {
         /// Its radius, m.
         radius: f64,
     },
-    /// Nodes on a [`Group`] of [`BakeSpec::groups`](crate::BakeSpec::groups): those of the outer surface nearer to it
-    /// than a fifth of their shortest edge.
+    /// The nodes of a [`Group`] of [`BakeSpec::groups`](crate::BakeSpec::groups): those of the outer surface within a fifth of their shortest
+    /// edge of it.
     Group(String),
 }
 
@@ -130,10 +129,10 @@ impl Region {
     }
 }
 
-/// Checks the numbers of supports; names of groups are not looked at.
+/// Checks the numbers of supports, but not the names of groups.
 ///
 /// # Errors
-/// The first support without axes, or with numbers that cannot be used.
+/// The first support without axes or with invalid numbers.
 pub fn check_supports(supports: &[Support]) -> Result<(), BakeError> {
     for (support, Support { region, axes }) in supports.iter().enumerate() {
         let axisless = "fixes no axis; set at least one of its axes";
@@ -145,10 +144,10 @@ pub fn check_supports(supports: &[Support]) -> Result<(), BakeError> {
     Ok(())
 }
 
-/// Checks that every group that a support names is there.
+/// Checks that every group named by a support exists.
 ///
 /// # Errors
-/// The first name that no group has, with the one that was probably meant.
+/// The first unknown name, with the most similar known one.
 pub fn check_groups(supports: &[Support], groups: &[Group]) -> Result<(), BakeError> {
     supports
         .iter()

@@ -1,6 +1,5 @@
-//! A body's geometry. Boxes and bodies of revolution are triangulated sheets extruded through their thickness, coarse and
-//! regular for the modes or fine and irregular for the cracks; any other solid is filled by the lattice mesher of
-//! `frangible-mesh`.
+//! Shapes of bodies and their meshes. Boxes and bodies of revolution are triangulated sheets extruded through the thickness, coarse and
+//! regular for the modes, fine and irregular for the cracks; other solids are filled by the lattice mesher of `frangible-mesh`.
 
 mod block;
 mod pane;
@@ -30,13 +29,13 @@ pub(crate) const FRACTURE_TETS: f64 = 42_000.0;
 /// Resolution of a mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeshSize {
-    /// Edge length of the elements, m. Halving it makes four to eight times as many.
+    /// Edge length of the elements, m. Halving it gives four to eight times as many elements.
     pub edge: f64,
-    /// Elements through the thickness; 0 takes as many as `edge` asks for, at least one.
+    /// Number of elements through the thickness; 0 derives it from `edge`, at least one.
     pub layers: usize,
 }
 
-/// A body's geometry, metres.
+/// The shape of a body, in metres.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Shape {
@@ -47,14 +46,14 @@ pub enum Shape {
     },
     /// A pane with round corners, bent or flat.
     Pane(PaneShape),
-    /// A profile turned about the z-axis, from the axis at the bottom to the rim.
+    /// A body of revolution about the z-axis; the profile runs from the axis at the bottom to the rim.
     Revolution {
         /// Stations; the first has r = 0 for both points.
         profile: Vec<Station>,
     },
-    /// Anything with an inside: a mesh from a file, a signed distance.
+    /// A general solid: a closed mesh or a signed distance function.
     Solid(SolidShape),
-    /// Tetrahedra from a file, as they are.
+    /// Tetrahedra from a file, used unchanged.
     Tets(TetShape),
 }
 
@@ -121,16 +120,16 @@ impl Shape {
         }
     }
 
-    /// A ready solid by one of the names in [`READY_SHAPES`]: a rabbit, a piggy bank …, metres, z up.
+    /// A predefined solid by its name in [`READY_SHAPES`], such as a rabbit or a piggy bank; metres, z up.
     #[must_use]
     pub fn ready(name: &str) -> Option<Self> {
         solid::ready(name).map(Self::Solid)
     }
 
-    /// Volume of the exact shape, m³; of a solid, as counted on a grid, within about a per cent.
+    /// Volume of the exact shape, m³; for a solid, measured on a grid to about one per cent.
     ///
     /// # Errors
-    /// The number or station at fault.
+    /// The invalid number or station.
     pub fn volume(&self) -> Result<f64, BakeError> {
         match self {
             Self::Box { size } => block::validate(*size).map(|()| size.iter().product()),
@@ -144,7 +143,7 @@ impl Shape {
     /// Element size of the default analysis mesh (quadratic, about 3 000 elements).
     ///
     /// # Errors
-    /// The number or station at fault.
+    /// The invalid number or station.
     pub fn analysis_size(&self) -> Result<MeshSize, BakeError> {
         self.size_for(ANALYSIS_TETS)
     }
@@ -152,15 +151,15 @@ impl Shape {
     /// Element size of the default fracture mesh (linear, about 42 000 elements).
     ///
     /// # Errors
-    /// The number or station at fault.
+    /// The invalid number or station.
     pub fn fracture_size(&self) -> Result<MeshSize, BakeError> {
         self.size_for(FRACTURE_TETS)
     }
 
-    /// Largest element size that gives at least `tets` tetrahedra, within a few per cent; a solid asks for about as many.
+    /// Largest element size that gives at least `tets` tetrahedra, to a few per cent; for a solid, the size for about that many.
     ///
     /// # Errors
-    /// The number or station at fault.
+    /// The invalid number or station.
     pub fn size_for(&self, tets: f64) -> Result<MeshSize, BakeError> {
         if let Self::Solid(shape) = self {
             return Ok(solid::size_for(solid::volume(shape)?, tets));

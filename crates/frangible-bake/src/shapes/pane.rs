@@ -1,6 +1,6 @@
-//! Panes with round corners, bent or flat: the cover of a telephone, a windscreen.
+//! Flat or curved panes with rounded corners, such as the cover glass of a phone or a windscreen.
 //!
-//! A pane is a box that is bent: its mesh is that of the box, every node of which is moved.
+//! The mesh of a pane is the mesh of a box with displaced nodes.
 
 use std::f64::consts::PI;
 
@@ -15,14 +15,14 @@ const DEEPEST: f64 = 0.5;
 /// Shares of the width in which the volume of a bent pane is summed.
 const SLICES: usize = 1000;
 
-/// A pane: its outline a rectangle with round corners, its middle higher than two of its edges.
+/// A pane: a rectangle with rounded corners, curved in one direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PaneShape {
-    /// Width, depth and thickness, m, as seen from above: a corner is at the origin, as a box has it.
+    /// Width, depth and thickness, m; one corner is at the origin, as for a box.
     pub size: [f64; 3],
-    /// Radius of its corners, m; 0: sharp ones.
+    /// Radius of the corners, m; 0 for sharp corners.
     pub corner: f64,
-    /// Height of its middle above its left and right edges, m, along a parabola; 0: flat.
+    /// Height of the middle above the left and right edges, m, along a parabola; 0 for a flat pane.
     pub bow: f64,
 }
 

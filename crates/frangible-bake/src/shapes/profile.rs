@@ -1,15 +1,15 @@
-//! Profile of a body of revolution with wall thickness: an outer and an inner curve run together.
+//! Profile of a body of revolution with a wall: an outer and an inner curve.
 
 use crate::error::BakeError;
 
-/// One station of a profile: a point of the outer and one of the inner surface, each (r, z) in metres.
+/// One station of a profile: a point of the outer and a point of the inner surface, each (r, z) in metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Station {
     /// Outer point: distance from the axis and height, m.
     pub outer: [f64; 2],
     /// Inner point: distance from the axis and height, m.
     pub inner: [f64; 2],
-    /// Sharp: the curve is straight up to here and starts anew; mesh vertices lie exactly on it.
+    /// True for a sharp corner: the curve is straight up to this station and starts again; mesh vertices lie exactly on it.
     pub corner: bool,
 }
 

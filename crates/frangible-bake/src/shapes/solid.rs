@@ -1,4 +1,4 @@
-//! Bodies given by their inside: mesh files and signed distances.
+//! General solids: mesh files and signed distance functions.
 
 use std::fmt;
 use std::ops::ControlFlow;
@@ -35,16 +35,16 @@ const THICK: f64 = 0.5;
 pub struct SolidShape {
     /// The solid, m.
     pub solid: Arc<dyn Solid>,
-    /// Thickness of the thinnest walls, m, if there are any to speak of: the fracture mesh resolves them.
+    /// Thickness of the thinnest walls, m, if the solid has thin walls; the fracture mesh resolves it.
     pub wall: Option<f64>,
-    /// Wanted tetrahedra of the fracture mesh; thin walls may ask for more.
+    /// Requested number of tetrahedra of the fracture mesh; thin walls may need more.
     pub tets: usize,
-    /// Most tetrahedra of the fracture mesh; walls that need more are an error.
+    /// Largest number of tetrahedra of the fracture mesh; an error if walls need more.
     pub most: usize,
 }
 
 impl SolidShape {
-    /// A solid without thin walls, about 42 000 tetrahedra, 250 000 at most.
+    /// A solid without thin walls, with about 42 000 and at most 250 000 tetrahedra.
     #[must_use]
     pub fn new(solid: Arc<dyn Solid>) -> Self {
         Self {

@@ -19,25 +19,25 @@ const MOST_OWN: usize = 20_000;
 /// 0.33, a ball 0.41.
 const THIN: f64 = 0.2;
 
-/// Elements that carry the modes of a body given by its tetrahedra.
+/// Choice of the analysis mesh for a body given by tetrahedra.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum AnalysisChoice {
-    /// Elements of second order, up to 20 000 of them, carry their modes; anything else is covered.
+    /// Use up to 20 000 quadratic elements of the body; otherwise cover it with a lattice.
     #[default]
     Auto,
-    /// A lattice of quadratic elements that covers the body.
+    /// Cover the body with a lattice of quadratic elements.
     Cover,
-    /// The body's own elements, linear or quadratic as they came. Linear ones are too stiff in bending.
+    /// Use the body's own elements, linear or quadratic. Linear elements are too stiff in bending.
     Own,
 }
 
-/// Tetrahedra that carry the cracks as they are, and the modes if that is asked for.
+/// Tetrahedra from a file, used unchanged as the fracture mesh, and optionally as the analysis mesh.
 #[derive(Clone, Debug)]
 pub struct TetShape {
     /// The tetrahedra, m.
     pub body: Arc<TetBody>,
-    /// True if they came as elements of second order.
+    /// True if they were quadratic elements in the file.
     pub quadratic: bool,
     /// Elements that carry the modes.
     pub analysis: AnalysisChoice,
@@ -46,7 +46,7 @@ pub struct TetShape {
 }
 
 impl TetShape {
-    /// Elements of first order without groups.
+    /// A body of linear elements without groups.
     #[must_use]
     pub fn new(body: TetBody) -> Self {
         Self {
@@ -64,8 +64,8 @@ impl TetShape {
         Some(&group.nodes)
     }
 
-    /// Its named parts as supports take them: their nodes, and the outer faces that have all three nodes in one, whose
-    /// edge middles belong to it too. Parts of one name are one.
+    /// Returns the named parts for supports: their nodes and the outer faces with all three nodes in the part, including the mid-edge nodes.
+    /// Parts with the same name are merged.
     #[must_use]
     pub fn named_parts(&self) -> Vec<Group> {
         let faces = self.body.boundary();

@@ -1,6 +1,6 @@
-//! Weak places of a body: zones, scored lines and paint, made into [`Fields`] of strength, toughness and weak points.
+//! Local weakness: conversion of zones, scored lines and vertex colours to [`Fields`] of strength, toughness and weak points.
 //!
-//! Nothing of it is baked: the same asset serves scored and plain bodies, see
+//! Weakness is not baked, so scored and plain bodies share an asset; see
 //! [`Breakable::with_fields`](frangible::Breakable::with_fields).
 
 mod paint;
@@ -13,10 +13,10 @@ use frangible::{Asset, InputError};
 pub use paint::{Channel, Paint, from_paint};
 pub use zone::{Patch, Zone};
 
-/// Fields painted by patches, one over the other: a factor of a later patch replaces those below.
+/// Makes fields from patches; where patches overlap, the factor of the later one applies.
 ///
-/// A tetrahedron belongs to a patch when its centre does; a scored line needs a radius of about the fracture mesh's
-/// edge to hang together.
+/// A tetrahedron belongs to a patch if its centre does, so a scored line needs a radius of about the edge length of the fracture mesh to be
+/// continuous.
 ///
 /// # Errors
 /// A zone with a number that is not finite, a radius that is not above zero, or a normal without direction.
@@ -24,7 +24,7 @@ pub fn from_patches(asset: &Asset, patches: &[Patch]) -> Result<Fields, InputErr
     patched(Fields::default(), asset, patches)
 }
 
-/// Fields with patches over those given, see [`from_patches`].
+/// Applies patches to existing fields; see [`from_patches`].
 ///
 /// # Errors
 /// Errors of [`from_patches`].
@@ -44,8 +44,8 @@ pub fn patched(mut fields: Fields, asset: &Asset, patches: &[Patch]) -> Result<F
     Ok(fields)
 }
 
-/// Fields painted on the vertices of a surface (m, body frame): each tetrahedron takes the paint of the nearest point of it.
-/// `factors` gives the factors that the colour, or other value, of a vertex stands for, by the vertex's number.
+/// Makes fields from values at the vertices of a surface (m, body frame): each tetrahedron gets the interpolated factors of the nearest surface
+/// point. `factors` returns the factors of a vertex by its index.
 ///
 /// # Errors
 /// Errors of [`Fields::from_surface`].

@@ -40,23 +40,21 @@ impl Channel {
     }
 }
 
-/// Meaning of a channel of the vertex colours: factors on the material's numbers where it is 0 and where it is 1, linear
-/// between them.
+/// Mapping of a vertex-colour channel to factors on the values of the material: factors at 0 and at 1, linear in between.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Paint {
     /// The channel.
     pub channel: Channel,
     /// Factors on the tensile strength, if it differs; above 0.
     pub strength: Option<[f32; 2]>,
-    /// Factors on the fracture energy, if it differs; above 0. Where only the strength is given it is its square, as in
-    /// [`Factors::of_strength`].
+    /// Factors on the fracture energy, if it differs; above 0. Default: the square of the strength factor, as in [`Factors::of_strength`].
     pub toughness: Option<[f32; 2]>,
     /// Factors on the density of weak points, if it differs; 0 or above.
     pub weak_points: Option<[f32; 2]>,
 }
 
 impl Paint {
-    /// Paint with these shares of the strength, and the toughness that goes with them.
+    /// Makes a mapping to the strength, with the toughness that keeps the flaw size.
     #[must_use]
     pub const fn of_strength(channel: Channel, strength: [f32; 2]) -> Self {
         Self {
@@ -107,13 +105,13 @@ impl Paint {
     }
 }
 
-/// Fields from the [vertex colours](frangible::internals::asset::RenderSurface::colors) of the asset's drawn surface: each tetrahedron takes
-/// the colour of the nearest point of it. A factor of a later entry replaces that of an earlier one.
+/// Makes fields from the [vertex colours](frangible::internals::asset::RenderSurface::colors) of the asset's authored surface: each tetrahedron
+/// gets the colour of the nearest surface point. Factors of later entries replace those of earlier ones.
 ///
-/// Paint reaches halfway through a wall: a score right through it is painted on both sides.
+/// Colours reach halfway through a wall; to weaken a wall through its whole thickness, paint both sides.
 ///
 /// # Errors
-/// An asset without vertex colours, or a factor that cannot be used.
+/// An asset without vertex colours, or an invalid factor.
 pub fn from_paint(asset: &Asset, paint: &[Paint]) -> Result<Fields, InputError> {
     paint.iter().try_for_each(Paint::check)?;
     if paint.is_empty() {

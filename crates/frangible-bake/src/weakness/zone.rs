@@ -1,15 +1,15 @@
-//! Zones: parts of a body by their place.
+//! Zones: regions of a body.
 
 use frangible::InputError;
 use frangible::glam::Vec3;
 use frangible::internals::Factors;
 use frangible::internals::error::{finite, positive};
 
-/// A part of space, m, body frame.
+/// A region of space, m, body frame.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Zone {
-    /// Between two corners, in any order.
+    /// An axis-aligned box between two corners, in any order.
     Box([Vec3; 2]),
     /// A ball.
     Sphere {
@@ -18,16 +18,16 @@ pub enum Zone {
         /// Its radius.
         radius: f32,
     },
-    /// All that lies behind a plane.
+    /// The half-space behind a plane.
     HalfSpace {
         /// A point of the plane.
         point: Vec3,
-        /// Points out of the zone; of any length.
+        /// Normal pointing out of the zone, of any length.
         normal: Vec3,
     },
-    /// All that is close to a line of straight pieces: a score, a seam. One point is a ball.
+    /// The neighbourhood of a polyline, such as a score or a seam. A single point gives a ball.
     Tube {
-        /// Its points, one after another.
+        /// Points of the polyline.
         line: Vec<Vec3>,
         /// Largest distance from the line.
         radius: f32,
@@ -94,22 +94,21 @@ fn distance(p: Vec3, a: Vec3, b: Vec3) -> f32 {
     p.distance(a + along * t)
 }
 
-/// A zone, and the factors on the material's numbers there.
+/// A zone with factors on the values of the material.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Patch {
     /// The zone.
     pub zone: Zone,
     /// Factor on the tensile strength, if it differs.
     pub strength: Option<f32>,
-    /// Factor on the fracture energy, if it differs. Where only the strength is given it is its square, as in
-    /// [`Factors::of_strength`].
+    /// Factor on the fracture energy, if it differs. Default: the square of the strength factor, as in [`Factors::of_strength`].
     pub toughness: Option<f32>,
     /// Factor on the density of weak points, if it differs.
     pub weak_points: Option<f32>,
 }
 
 impl Patch {
-    /// A patch with this share of the strength, and the toughness that goes with it.
+    /// Makes a patch with a factor on the strength, and the toughness that keeps the flaw size.
     #[must_use]
     pub const fn of_strength(zone: Zone, strength: f32) -> Self {
         Self {
