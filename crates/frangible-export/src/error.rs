@@ -3,11 +3,11 @@
 use frangible_recording::RecordingError;
 use thiserror::Error;
 
-/// Error that keeps a file from being made.
+/// Error of an export.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ExportError {
-    /// The recording is not sound.
+    /// The recording is invalid.
     #[error("the recording cannot be exported: {0}")]
     Recording(#[from] RecordingError),
     /// A GLB file holds at most 4 GiB, as its lengths are 32 bits wide.
@@ -21,7 +21,7 @@ pub enum ExportError {
     /// The JSON part could not be written.
     #[error("the glTF description could not be written: {0}; please report this as a bug")]
     Json(#[from] serde_json::Error),
-    /// A mesh with its fields does not fit together.
+    /// The mesh and its fields are inconsistent.
     #[error("the mesh cannot be exported: {0}; check the mesh and its fields")]
     Grid(String),
 }

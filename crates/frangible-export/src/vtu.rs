@@ -1,6 +1,6 @@
-//! Tetrahedral meshes with fields on them as VTK's unstructured grids (.vtu), for ParaView and its kin.
+//! Tetrahedral meshes with fields as VTK unstructured grids (.vtu), for ParaView and similar programs.
 //!
-//! One XML head, then all numbers as they are in memory (raw appended data, little-endian, lengths of 64 bits).
+//! An XML header followed by raw appended data, little-endian, with 64-bit lengths.
 
 use std::fmt::Write;
 
@@ -8,7 +8,7 @@ use glam::Vec3;
 
 use crate::ExportError;
 
-/// A mesh of one kind of elements, with data at its nodes.
+/// A mesh with one type of elements and data at its nodes.
 #[derive(Clone, Copy, Debug)]
 pub struct VtuMesh<'a> {
     /// Node positions, m.
@@ -17,7 +17,7 @@ pub struct VtuMesh<'a> {
     pub cells: VtuCells<'a>,
     /// Fields with a value per node.
     pub point_data: &'a [VtuField<'a>],
-    /// Lists of numbers of the whole, each with a name: frequencies, times.
+    /// Named lists of numbers for the whole mesh, such as frequencies or times.
     pub field_data: &'a [(&'a str, &'a [f64])],
 }
 
@@ -26,14 +26,14 @@ pub struct VtuMesh<'a> {
 pub enum VtuCells<'a> {
     /// Four corners.
     Linear(&'a [[u32; 4]]),
-    /// Four corners, then the nodes amid the edges 01, 12, 02, 03, 13, 23, which is VTK's own order.
+    /// Four corners, then the mid-edge nodes of the edges 01, 12, 02, 03, 13, 23, in VTK's order.
     Quadratic(&'a [[u32; 10]]),
 }
 
-/// A value per node.
+/// A field with one value per node.
 #[derive(Clone, Copy, Debug)]
 pub struct VtuField<'a> {
-    /// Its name; whatever XML forbids is escaped.
+    /// Name of the field, escaped for XML.
     pub name: &'a str,
     /// The values.
     pub values: VtuValues<'a>,

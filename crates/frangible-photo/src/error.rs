@@ -9,13 +9,13 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum PhotoError {
-    /// The recording or the view is not sound.
+    /// The recording or the view is invalid.
     #[error("the recording cannot be drawn: {0}")]
     Recording(#[from] RecordingError),
-    /// A frame beyond the end was asked for.
+    /// The requested frame is beyond the end.
     #[error("frame {frame} cannot be drawn: the recording has {count}, counted from 0")]
     NoSuchFrame {
-        /// The frame asked for.
+        /// The requested frame.
         frame: usize,
         /// Number of frames in the recording.
         count: usize,
@@ -25,11 +25,11 @@ pub enum PhotoError {
         "a picture of {width} × {height} pixels cannot be drawn; choose 16 to {limit} each way"
     )]
     BadSize {
-        /// Width asked for, pixels.
+        /// Requested width, pixels.
         width: u32,
-        /// Height asked for, pixels.
+        /// Requested height, pixels.
         height: u32,
-        /// The most pixels each way.
+        /// Largest number of pixels per side.
         limit: u32,
     },
     /// A sheet without a cell.
@@ -43,7 +43,7 @@ pub enum PhotoError {
     File {
         /// The file.
         path: PathBuf,
-        /// Made, written.
+        /// The attempted operation: “made” or “written”.
         doing: &'static str,
         /// Error of the system.
         source: std::io::Error,

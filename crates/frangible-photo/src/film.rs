@@ -1,4 +1,4 @@
-//! Films: pictures one after the other, into a file or a folder.
+//! Films: sequences of pictures, written to a file or a folder.
 
 use std::fs::File;
 use std::io::BufWriter;
@@ -19,18 +19,18 @@ const GIF_SPEED: i32 = 10;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum FilmFormat {
-    /// A GIF, which every page plays.
+    /// GIF, supported everywhere.
     Gif,
-    /// A WebP, which browsers play: fewer bytes than a GIF, and all colours. It takes the feature `webp`.
+    /// Animated WebP, supported by browsers: smaller than a GIF, with full colour. Requires the feature `webp`.
     WebP,
-    /// An MP4, which takes the program `ffmpeg`.
+    /// MP4. Requires the program `ffmpeg`.
     Mp4,
-    /// A folder of pictures, `frame-0001.png` and so on.
+    /// Folder of pictures, `frame-0001.png` and so on.
     Frames,
 }
 
 impl FilmFormat {
-    /// The format that a file name asks for: `.gif`, `.webp`, `.mp4`, or none for a folder.
+    /// Returns the format for a file name: `.gif`, `.webp`, `.mp4`, or a folder if there is no extension.
     #[must_use]
     pub fn of(path: &Path) -> Option<Self> {
         match path.extension() {
@@ -43,7 +43,7 @@ impl FilmFormat {
     }
 }
 
-/// A film that is being written. [`FilmWriter::finish`] gives it its name; dropped before that, it leaves no file, but for single pictures.
+/// Writer of a film. [`FilmWriter::finish`] gives the file its final name; if it is dropped before, no file remains, except separate pictures.
 pub struct FilmWriter {
     path: PathBuf,
     pictures: u32,
@@ -64,11 +64,11 @@ enum To {
 }
 
 impl FilmWriter {
-    /// Begins a film of pictures of one size, `[width, height]` in pixels, so many a second. Folders above it are made.
+    /// Starts a film with pictures of this size, `[width, height]` in pixels, and this frame rate, 1/s. Creates missing parent folders.
     ///
     /// # Errors
-    /// [`PhotoError::File`] where nothing can be written, [`PhotoError::NoFfmpeg`] where an MP4 needs it, [`PhotoError::NoWebP`] in a build
-    /// without, [`PhotoError::BadSize`] for a GIF that no reader could read.
+    /// [`PhotoError::File`] if it cannot be written, [`PhotoError::NoFfmpeg`] for an MP4 without ffmpeg, [`PhotoError::NoWebP`] in a build
+    /// without WebP, [`PhotoError::BadSize`] for an invalid size of a GIF.
     pub fn begin(
         path: &Path,
         format: FilmFormat,
@@ -106,10 +106,10 @@ impl FilmWriter {
         })
     }
 
-    /// Sets the quality of a WebP's pictures, from 1 to 100, default 75. Call this before the first picture.
+    /// Sets the quality of WebP pictures, 1 to 100, default 75. Call it before adding the first picture.
     ///
     /// # Errors
-    /// [`PhotoError::File`] where the encoder does not take it.
+    /// [`PhotoError::File`] if the encoder rejects it.
     #[cfg(feature = "webp")]
     pub fn set_quality(&mut self, size: [u32; 2], quality: f32) -> Result<(), PhotoError> {
         if let To::WebP(webp) = &mut self.to {
@@ -118,7 +118,7 @@ impl FilmWriter {
         Ok(())
     }
 
-    /// Gives the film a sound, the bytes of a WAV: an MP4 gets a track, and beside other formats stands a file, `glass-film.wav` for `glass.gif`.
+    /// Adds sound, the bytes of a WAV: as a track of an MP4, or for other formats as a separate file, `glass-film.wav` for `glass.gif`.
     pub fn set_sound(&mut self, wav: Vec<u8>) {
         self.sound = Some(wav);
     }
@@ -126,7 +126,7 @@ impl FilmWriter {
     /// Adds a picture.
     ///
     /// # Errors
-    /// [`PhotoError::File`] where it cannot be written.
+    /// [`PhotoError::File`] if it cannot be written.
     pub fn add(&mut self, picture: &Picture) -> Result<(), PhotoError> {
         self.pictures += 1;
         match &mut self.to {
@@ -147,10 +147,10 @@ impl FilmWriter {
         }
     }
 
-    /// Ends the film, which then has its name; one without pictures leaves no file.
+    /// Finishes the film and gives it its final name. A film without pictures leaves no file.
     ///
     /// # Errors
-    /// [`PhotoError::File`] where it cannot be written.
+    /// [`PhotoError::File`] if it cannot be written.
     pub fn finish(self) -> Result<(), PhotoError> {
         if self.pictures == 0 {
             return Ok(());

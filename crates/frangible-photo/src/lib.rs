@@ -1,4 +1,4 @@
-//! Pictures of a [`Recording`](frangible_recording::Recording), by following rays of light on the processor.
+//! Path-traced pictures of a [`Recording`](frangible_recording::Recording), rendered on the CPU.
 //!
 //! [`contact_sheet`] shows the four moments of a break on one picture,
 //! [`sheet_of_frames`] puts frames of any recordings side by side, and
@@ -6,12 +6,11 @@
 //! photograph. [`encode_png`] makes a small file of the result.
 //! [`FilmWriter`] writes films, and [`SlowMotion`] says which frame a film shows when.
 //!
-//! There is no graphics driver, no display and no thread but rayon's: the same
-//! recording gives the same picture on any number of threads.
+//! It needs no graphics driver and no display. The same recording gives the same picture on any number of threads.
 //!
-//! A photograph of glass lives by effects that rasters lack: light that is bent twice and shows the far side through the near one, cracks that gleam
-//! because light cannot leave the glass there, shards that see each other. So stills are traced path by path, with as many paths per pixel as its
-//! noise asks for. The floor's shadow is found exactly, with the light that glass gathers added, and costs nothing per path.
+//! Realistic glass needs effects that rasterization lacks: double refraction, total internal reflection at cracks, and reflections between shards.
+//! So stills are path-traced, with an adaptive number of paths per pixel. The shadow of the floor is computed exactly, including caustics, at no
+//! cost per path.
 
 mod caption;
 mod caustic;

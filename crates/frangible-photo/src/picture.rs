@@ -55,7 +55,7 @@ impl Picture {
     /// The pixel in column `x` and row `y`.
     ///
     /// # Panics
-    /// Outside of the picture.
+    /// If the pixel is outside the picture.
     #[must_use]
     pub fn pixel(&self, x: u32, y: u32) -> [u8; 3] {
         let at = self.offset(x, y);
@@ -65,13 +65,13 @@ impl Picture {
     /// Colours the pixel in column `x` and row `y`.
     ///
     /// # Panics
-    /// Outside of the picture.
+    /// If the pixel is outside the picture.
     pub fn set_pixel(&mut self, x: u32, y: u32, color: [u8; 3]) {
         let at = self.offset(x, y);
         self.bytes[at..at + 3].copy_from_slice(&color);
     }
 
-    /// Copies another picture into this one, its upper left corner to column `x` and row `y`. Parts outside are left out.
+    /// Copies another picture into this one, with its upper left corner at column `x` and row `y`. Parts outside are clipped.
     pub fn paste(&mut self, other: &Self, x: u32, y: u32) {
         let columns = other.width.min(self.width.saturating_sub(x)) as usize;
         let rows = other.height.min(self.height.saturating_sub(y));

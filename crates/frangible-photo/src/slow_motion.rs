@@ -1,4 +1,4 @@
-//! Timing of a film of a break: quickly until it breaks, slowly then, and on to the end.
+//! Timing of a slow-motion film: normal speed up to the break, slow during it, and normal to the end.
 
 use frangible_recording::{Recording, View};
 
@@ -11,7 +11,7 @@ const SLOW: f64 = 0.55;
 /// Seconds for which the last picture stands.
 const END: f64 = 0.6;
 
-/// Frame and camera of a recording at each time of a film.
+/// Mapping from the time of a film to the frame and camera of a recording.
 #[derive(Clone, Debug)]
 pub struct SlowMotion<'a> {
     recording: &'a Recording,
@@ -20,7 +20,7 @@ pub struct SlowMotion<'a> {
 }
 
 impl<'a> SlowMotion<'a> {
-    /// A film of `seconds`, slowed down by the factor `slow` where things break.
+    /// A film of `seconds`, slowed down by the factor `slow` around breaks.
     #[must_use]
     pub fn new(recording: &'a Recording, seconds: f64, slow: f64) -> Self {
         let rate = f64::from(recording.frame_rate);
@@ -42,19 +42,19 @@ impl<'a> SlowMotion<'a> {
         }
     }
 
-    /// The frame of the recording that is shown at a time of the film, s; between two of them where it is no whole number.
+    /// Frame of the recording at a time of the film, s; fractional values lie between two frames.
     #[must_use]
     pub fn frame(&self, time: f64) -> f64 {
         between(&self.knots, time)
     }
 
-    /// Time at which the last picture is reached, s; it stands from then on.
+    /// Time at which the last picture is reached, s; the film stands still from then on.
     #[must_use]
     pub fn stands_from(&self) -> f64 {
         self.knots[3][0]
     }
 
-    /// The camera on its way between the views of the moments.
+    /// Camera at a frame, interpolated between the views of the moments.
     #[must_use]
     pub fn view(&self, frame: f64) -> View {
         let recording = self.recording;

@@ -13,7 +13,7 @@ const LARGEST: u32 = 4096;
 const LABEL_HEIGHT: f32 = 24.0;
 const INK: [u8; 3] = [240; 3];
 
-/// Draws frames of one size.
+/// Renderer for frames of one size.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Studio {
     width: u32,
@@ -37,11 +37,11 @@ impl Studio {
         Ok(Self { width, height })
     }
 
-    /// Draws one frame by following light, within seconds; a label, if not empty, stands in the upper left corner.
+    /// Path-traces one frame, which takes seconds. A non-empty label is drawn in the upper left corner.
     ///
     /// # Errors
     ///
-    /// [`PhotoError::Recording`] if the recording or the view is not sound,
+    /// [`PhotoError::Recording`] if the recording or the view is invalid,
     /// [`PhotoError::NoSuchFrame`] beyond its end.
     pub fn frame(
         &self,
@@ -56,7 +56,7 @@ impl Studio {
         Ok(picture)
     }
 
-    /// [`Studio::frame`] between two frames, for films that follow light: half a minute of processor time for a second of 480 × 270 pixels.
+    /// Like [`Studio::frame`], for a time between two frames, for path-traced films: half a minute of CPU time per second of film at 480 × 270 pixels.
     ///
     /// # Errors
     ///
@@ -73,8 +73,8 @@ impl Studio {
         Ok(photograph.picture())
     }
 
-    /// Draws one frame as [`Studio::frame`] does, with `samples` paths of light per pixel. Calls `go_on` with their number so far, and stops if it
-    /// returns false; a path per pixel of 1280 × 800 takes one to three seconds of processor time.
+    /// Like [`Studio::frame`], with `samples` paths per pixel. Calls `go_on` with the number of completed paths and stops if it returns false. One
+    /// path per pixel at 1280 × 800 takes one to three seconds of CPU time.
     ///
     /// # Errors
     ///
@@ -114,7 +114,7 @@ pub fn render_frame(
     Studio::new(width, height)?.frame(recording, frame, view, "")
 }
 
-/// A recording of one moment, with only the things that can be seen in it; between two frames things are on their way from the one to the other.
+/// Makes a recording of one moment with only the visible objects, interpolated between two frames.
 ///
 /// # Errors
 ///

@@ -1,4 +1,4 @@
-//! The bodies of a scene, baked.
+//! Baking the bodies of a scene.
 
 use std::sync::Arc;
 
@@ -13,19 +13,19 @@ use crate::rescale::{Rescale, rescaled};
 use crate::scene::Scene;
 use crate::source::{BodySource, Opened, open_source_from};
 
-/// A body ready to break.
+/// A baked body of a scene.
 #[derive(Clone, Debug)]
 pub struct BakedBody {
-    /// Shared by all bodies of one source, material and number of modes.
+    /// The asset, shared by all bodies with the same source, material and number of modes.
     pub asset: Arc<Asset>,
-    /// Figures of the bake; none for a body that came baked.
+    /// Report of the bake; `None` for a body that was already baked.
     pub report: Option<Arc<BakeReport>>,
 }
 
-/// Bakes the scene's bodies, equal ones once: one per body, in their order.
+/// Bakes the bodies of a scene, in their order; equal bodies are baked once.
 ///
 /// # Errors
-/// A quantity of the scene, a file or a shape that cannot be used.
+/// An invalid quantity, file or shape.
 pub fn bake(
     scene: &Scene,
     progress: &mut dyn FnMut(Progress),
@@ -34,19 +34,18 @@ pub fn bake(
     bake_opened(scene, opened, progress)
 }
 
-/// Checks the scene and reads the sources of its bodies: all faults of these are found here, and nothing is
-/// computed yet.
+/// Checks the scene and reads the sources of its bodies. All errors in these are found here, before any computation.
 ///
 /// # Errors
-/// A quantity of the scene or a file that cannot be used.
+/// An invalid quantity of the scene, or an invalid file.
 pub fn open_sources(scene: &Scene) -> Result<Vec<Opened>, SceneError> {
     open_sources_from(scene, &Files::Disk)
 }
 
-/// Checks the scene and reads the sources of its bodies as [`open_sources`] does, with these files.
+/// Like [`open_sources`], with the given files.
 ///
 /// # Errors
-/// Those errors that [`open_sources`] has.
+/// The errors of [`open_sources`].
 pub fn open_sources_from(scene: &Scene, files: &Files) -> Result<Vec<Opened>, SceneError> {
     scene.validate()?;
     let mut opened: Vec<Opened> = Vec::with_capacity(scene.bodies.len());
@@ -111,10 +110,10 @@ pub fn bake_opened(
     bake_until(scene, opened, &CancelToken::default(), progress)
 }
 
-/// Bakes sources read by [`open_sources`], until somebody else calls [`CancelToken::cancel`].
+/// Like [`bake_opened`], but can be cancelled with [`CancelToken::cancel`].
 ///
 /// # Errors
-/// A body that cannot be baked; that it was cancelled.
+/// A body that cannot be baked, or the cancellation.
 pub fn bake_until(
     scene: &Scene,
     opened: Vec<Opened>,

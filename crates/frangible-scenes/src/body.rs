@@ -9,19 +9,18 @@ use frangible_bake::{Support, USUAL_MODES};
 use crate::rescale::Rescale;
 use crate::source::BodySource;
 
-/// A breakable body, and its state at the start.
+/// A breakable body and its initial state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BodySpec {
-    /// Name, also of its nodes in the animation.
+    /// Name of the body and of its nodes in the animation.
     pub name: String,
     /// Source of its geometry.
     pub source: BodySource,
-    /// Its material. A [`BodySource::Asset`] brings its own, and this one is not looked at: see
-    /// [`BodySpec::rescale`].
+    /// Material. Ignored for a [`BodySource::Asset`], which has its own; see [`BodySpec::rescale`].
     pub material: Material,
-    /// Number of vibration modes that are kept; a [`BodySource::Asset`] brings its own.
+    /// Number of vibration modes; ignored for a [`BodySource::Asset`].
     pub modes: usize,
-    /// Number of them that a blow follows through time; without it the bake's own choice.
+    /// Number of modes integrated through time during a blow; `None`: chosen by the bake.
     pub followed: Option<usize>,
     /// Position at the start.
     pub place: Place,
@@ -31,30 +30,30 @@ pub struct BodySpec {
     pub velocity: Vec3,
     /// Angular velocity at the start, rad/s.
     pub spin: Vec3,
-    /// Tetrahedra of the fracture mesh of a [`BodySource::Shape`], about; without it the bake's default. Other sources
-    /// name their own.
+    /// Approximate number of tetrahedra of the fracture mesh of a [`BodySource::Shape`]; `None`: the default of the bake. Other sources have
+    /// their own.
     pub resolution: Option<usize>,
-    /// Supports, m, in the frame of its shape: what these hold stays where it is, also after the break. Part of the bake, so that a
-    /// [`BodySource::Asset`] brings its own.
+    /// Supports, m, in the frame of the shape: parts that stay fixed, before and after the break. Part of the bake, so a
+    /// [`BodySource::Asset`] has its own.
     pub supports: Vec<Support>,
-    /// Zones in which it is weaker than its material, or stronger; one over the other. m from its centre of mass, along the axes of
-    /// its shape. Not part of the bake.
+    /// Zones in which the body is weaker or stronger than its material; later zones override earlier ones. In m from the centre of mass, along
+    /// the axes of the shape. Not part of the bake.
     pub weakness: Vec<Patch>,
-    /// Weakness painted with the vertex colours of its mesh; [`BodySpec::weakness`] lies over it. Not part of the bake, but the
-    /// colours are.
+    /// Weakness from the vertex colours of the mesh; overridden by [`BodySpec::weakness`]. The colours are part of the bake, the weakness is
+    /// not.
     pub paint: Vec<Paint>,
-    /// Weibull modulus of the scatter of its strength, see [`frangible::internals::Fields::weibull_modulus`]; 0: none. That of the
-    /// material preset if none is given ([`frangible::internals::Preset::weibull_modulus`]).
+    /// Weibull modulus of the strength, see [`frangible::internals::Fields::weibull_modulus`]; 0: no scatter. `None`: the value of the material
+    /// preset ([`frangible::internals::Preset::weibull_modulus`]).
     pub weibull_modulus: Option<f64>,
-    /// Volume of the specimen whose strength is its material's, m³; that of the preset if none is given.
+    /// Volume of the test specimen with the strength of the material, m³; `None`: the value of the preset.
     pub specimen: Option<f64>,
-    /// Static fatigue: the loss of strength under loads that last; that of the material preset if none is given.
+    /// Static fatigue: the loss of strength under sustained loads; `None`: the value of the material preset.
     pub fatigue: Option<Fatigue>,
-    /// Changes to the bake of a [`BodySource::Asset`]; not looked at for other sources.
+    /// Changes of size or material of a [`BodySource::Asset`]; ignored for other sources.
     pub rescale: Rescale,
 }
 
-/// Position of a body at the start. The floor is y = 0, also where there is none.
+/// Initial position of a body. The floor is at y = 0, even if the scene has none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Place {
     /// On the floor.
@@ -62,19 +61,19 @@ pub enum Place {
         /// x and z of its centre of mass, m.
         over: [f32; 2],
     },
-    /// Its lowest point this high above the floor.
+    /// With its lowest point at a height above the floor.
     Above {
         /// Height, m.
         height: f64,
         /// x and z of its centre of mass, m.
         over: [f32; 2],
     },
-    /// Its centre of mass here, m.
+    /// With its centre of mass at this point, m.
     Centre(Vec3),
 }
 
 impl BodySpec {
-    /// A body of this material at rest on the floor, with as many modes as a bake keeps unless told.
+    /// A body of this material at rest on the floor, with the default number of modes.
     #[must_use]
     pub fn new(name: impl Into<String>, source: BodySource, material: Material) -> Self {
         Self {
@@ -98,13 +97,13 @@ impl BodySpec {
         }
     }
 
-    /// Lets it fall from rest, its lowest point `height` metres above the floor, over the same place as before.
+    /// Drops the body from rest, with its lowest point `height` metres above the floor, at the same horizontal position.
     pub fn drop_from(&mut self, height: f64) {
         let over = self.place.over();
         self.place = Place::Above { height, over };
     }
 
-    /// Puts a body that was to fall on the floor; one with a given centre stays there.
+    /// Places a dropped body on the floor; a body with a given centre is not moved.
     pub fn stand(&mut self) {
         if let Place::Above { over, .. } = self.place {
             self.place = Place::Standing { over };

@@ -1,4 +1,4 @@
-//! Scenes from files: a scene file, or a single mesh or baked body to drop.
+//! Scenes from files: a scene file, or a mesh or baked body that is dropped.
 
 use std::path::Path;
 
@@ -19,19 +19,18 @@ const DROP: f64 = 1.5;
 /// Material of a body of a mesh file unless something else is asked for.
 const MATERIAL: &str = "porcelain";
 
-/// The scene that a file stands for: a scene file is read; a mesh or a baked body is dropped from 1.5 m, a mesh as
-/// porcelain.
+/// Makes a scene from a file: a scene file is read; a mesh, as porcelain, or a baked body is dropped from 1.5 m.
 ///
 /// # Errors
-/// A file that is missing, empty or of unknown kind, or a mistake in a scene file, with its line.
+/// A file that is missing, empty or of unknown kind, or an error in a scene file, with its line.
 pub fn scene_of_file(path: &Path) -> Result<Scene, SceneError> {
     scene_of_file_from(path, &Files::Disk)
 }
 
-/// The scene that one of these files stands for, as [`scene_of_file`] makes it.
+/// Like [`scene_of_file`], with the given files.
 ///
 /// # Errors
-/// Those errors that [`scene_of_file`] has.
+/// The errors of [`scene_of_file`].
 pub fn scene_of_file_from(path: &Path, files: &Files) -> Result<Scene, SceneError> {
     // A folder or a missing file is said to be so, whatever its ending.
     let kind = match FileKind::of(path) {
@@ -57,10 +56,10 @@ pub fn scene_of_file_from(path: &Path, files: &Files) -> Result<Scene, SceneErro
     Ok(scene)
 }
 
-/// The scene of a file where one is given, else the built-in scene of this name, else the first built-in one.
+/// Returns the scene of a file if one is given, otherwise the built-in scene of this name, or the first built-in scene.
 ///
 /// # Errors
-/// Those errors that [`scene_of_file`] and [`scene()`](crate::scene()) have.
+/// The errors of [`scene_of_file`] and [`scene()`](crate::scene()).
 pub fn scene_of(file: Option<&Path>, name: Option<&str>) -> Result<Scene, SceneError> {
     match file {
         Some(file) => scene_of_file(file),
@@ -71,7 +70,7 @@ pub fn scene_of(file: Option<&Path>, name: Option<&str>) -> Result<Scene, SceneE
 /// Reads a scene file. Paths in it are relative to its folder.
 ///
 /// # Errors
-/// A file that cannot be read, or the first mistake in it, with its line.
+/// A file that cannot be read, or the first error in it, with its line.
 pub fn read_scene(path: &Path) -> Result<Scene, SceneError> {
     read_scene_from(path, &Files::Disk)
 }

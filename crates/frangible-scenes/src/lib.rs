@@ -1,5 +1,4 @@
-//! Frangible's scenes: bodies, materials and set-ups for tests, benches, pictures and the command line; built in, or
-//! from files.
+//! Scenes of Frangible: bodies, materials and set-ups for tests, benchmarks, pictures and the command line, built in or from files.
 //!
 //! ```no_run
 //! let scene = frangible_scenes::scene("glass")?;
@@ -9,11 +8,10 @@
 //! # Ok::<(), frangible_scenes::SceneError>(())
 //! ```
 //!
-//! [`scene()`] gives a built-in scene, [`scene_of_file`] one from a scene file, a mesh or a baked body, and
-//! [`parse_scene`] one from TOML text; [`scene_to_toml`] goes back.
+//! [`scene()`] returns a built-in scene, [`scene_of_file`] a scene from a scene file, a mesh or a baked body, and [`parse_scene`] a scene from
+//! TOML text; [`scene_to_toml`] writes TOML.
 //!
-//! Whoever has baked bodies needs no solver: without the feature `bake` the crate has neither finite elements nor faer, and baked bodies
-//! have to be given.
+//! Without the feature `bake` the crate has no finite-element solver and no dependency on faer, and requires baked bodies.
 
 mod adhesive;
 mod again;

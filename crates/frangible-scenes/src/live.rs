@@ -1,4 +1,4 @@
-//! A scene that runs step by step, for those who look on and throw things: the things in it at the moment, with their shapes.
+//! Interactive simulation of a scene, step by step, with the current objects and their shapes.
 
 mod looks;
 mod reel;
@@ -46,23 +46,23 @@ const FRAME: u64 = 64;
 /// Ticks after a break that are still taken one by one.
 const FINE_AFTER_BREAK: u64 = 2 * FRAME;
 
-/// Kind of a thing in a scene.
+/// Kind of an object in a scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ThingKind {
     /// A breakable body of the scene: its number, from 0.
     Body(usize),
-    /// A piece of another thing.
+    /// A piece of another object.
     Piece {
-        /// Number of the thing that broke.
+        /// Index of the object that broke.
         of: usize,
-        /// Position of its centre of mass in that thing, m, along the thing's axes.
+        /// Position of its centre of mass in the frame of that object, m.
         birth: Vec3,
     },
-    /// Something that was thrown or swung.
+    /// A projectile.
     Projectile,
 }
 
-/// A rigid thing, with its shape.
+/// A rigid object with its shape.
 #[derive(Clone, Debug)]
 pub struct Thing {
     /// Its name.
@@ -84,7 +84,7 @@ pub struct Thing {
     plain: Option<RecordedMesh>,
 }
 
-/// A scene on the move. The same scene, throws and number of steps give the same bits.
+/// A running simulation of a scene. The same scene, throws and number of steps give bit-identical results.
 pub struct LiveScene {
     name: String,
     world: BreakableWorld,
@@ -101,19 +101,19 @@ pub struct LiveScene {
 }
 
 impl LiveScene {
-    /// The scene as it stands before its first step.
+    /// Sets up the scene before its first step.
     ///
     /// # Errors
-    /// A quantity of the scene that cannot be used, or not as many baked bodies as the scene has.
+    /// An invalid quantity of the scene, or a wrong number of baked bodies.
     pub fn new(scene: &Scene, baked: &[BakedBody]) -> Result<Self, SceneError> {
         scene.validate()?;
         Ok(Self::of_stage(scene, set_up(scene, baked)?))
     }
 
-    /// The scene as it stands before its first step, its bodies of these kinds. The weakness in the scene's description is not looked at.
+    /// Sets up the scene before its first step with bodies of these kinds. The weakness in the description of the scene is ignored.
     ///
     /// # Errors
-    /// A quantity of the scene that cannot be used, or not as many kinds as the scene has bodies.
+    /// An invalid quantity of the scene, or a wrong number of kinds.
     pub fn of_kinds(scene: &Scene, kinds: &[Breakable]) -> Result<Self, SceneError> {
         scene.validate()?;
         Ok(Self::of_stage(scene, set_up_kinds(scene, kinds, |_| {})?))
@@ -170,13 +170,12 @@ impl LiveScene {
         live
     }
 
-    /// Takes one step: 1/3840 s while something may break and just after, else 1/240 s. Breaks of the step are in the world's
-    /// [`breaks`](BreakableWorld::breaks), impacts that broke nothing in [`held`](BreakableWorld::held). The scene's own projectiles come and
-    /// go with the pictures of 1/60 s, as in [`play`](crate::play()).
+    /// Advances by one step: 1/3840 s while something may break and just after, otherwise 1/240 s. Breaks of the step are in the world's
+    /// [`breaks`](BreakableWorld::breaks), impacts that broke nothing in [`held`](BreakableWorld::held). The projectiles of the scene are
+    /// inserted and removed at frames of 1/60 s, as in [`play`](crate::play()).
     ///
     /// # Errors
-    /// A break that the fracture model refused; the body stays whole, and the scene may go on. A projectile that cannot be
-    /// thrown now.
+    /// A break that the fracture model rejected; the body stays whole, and the simulation can continue. A projectile that cannot be thrown.
     pub fn step(&mut self) -> Result<(), SceneError> {
         if self.ticks.is_multiple_of(FRAME) {
             self.throw_due()?;
@@ -304,24 +303,24 @@ impl LiveScene {
         }
     }
 
-    /// The breakable body behind a handle as it was before the last step, also when it broke in it: with its cracks so far.
+    /// The breakable body behind a handle in its state before the last step, including its cracks, even if it broke in that step.
     #[must_use]
     pub fn body_before(&self, handle: RigidBodyHandle) -> Option<&Body> {
         self.whole.get(&handle.into_raw_parts())
     }
 
-    /// The world it runs in.
+    /// The Rapier world of the simulation.
     #[must_use]
     pub fn world(&self) -> &BreakableWorld {
         &self.world
     }
 
-    /// The world it runs in, to change between steps.
+    /// The Rapier world of the simulation, which may be changed between steps.
     pub fn world_mut(&mut self) -> &mut BreakableWorld {
         &mut self.world
     }
 
-    /// Surfaces that meshes refer to.
+    /// Surface materials to which the meshes refer.
     #[must_use]
     pub fn surfaces(&self) -> &[SurfaceMaterial] {
         &self.surfaces
@@ -333,13 +332,13 @@ impl LiveScene {
         self.floor.as_ref()
     }
 
-    /// All things so far, those that are gone included; they keep their numbers.
+    /// All objects so far, including removed ones; indices stay valid.
     #[must_use]
     pub fn things(&self) -> &[Arc<Thing>] {
         &self.things
     }
 
-    /// Returns the present pose of a thing; `None` when it is gone: broken, or removed as debris.
+    /// Current pose of an object; `None` if it broke or was removed.
     #[must_use]
     pub fn pose(&self, thing: &Thing) -> Option<Pose> {
         let pose = self.world.physics.bodies.get(thing.handle)?.position();
@@ -349,7 +348,7 @@ impl LiveScene {
         })
     }
 
-    /// Speed of a thing's centre of mass, m/s.
+    /// Speed of the centre of mass of an object, m/s.
     #[must_use]
     pub fn speed(&self, thing: &Thing) -> Option<f32> {
         let body = self.world.physics.bodies.get(thing.handle)?;

@@ -1,6 +1,6 @@
-//! Files that a scene asks for.
+//! Output files of a scene.
 
-/// Files a scene asks for; they lie in the folder that the caller names.
+/// Output files of a scene, relative to the folder of the caller.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Output {
     /// The animation, by default `NAME.glb`.
@@ -9,22 +9,22 @@ pub struct Output {
     pub wav: FileWish,
     /// The four moments of the break, by default `NAME.png`.
     pub picture: FileWish,
-    /// The end for several seeds, `NAME-seeds.png`; by default not asked for.
+    /// The final state for several seeds, `NAME-seeds.png`; by default not written.
     pub contact_sheet: FileWish,
-    /// The report, `NAME.json`; by default not asked for.
+    /// The report, `NAME.json`; by default not written.
     pub json: FileWish,
-    /// Seeds on the contact sheet, default 9.
+    /// Number of seeds on the contact sheet, default 9.
     pub seeds: usize,
 }
 
-/// Request for a file, and its name.
+/// Choice of writing a file, with its name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum FileWish {
-    /// Not wanted.
+    /// Do not write it.
     No,
-    /// Wanted under the usual name.
+    /// Write it under the default name.
     Yes,
-    /// Wanted under this name.
+    /// Write it under this name.
     Named(String),
 }
 
@@ -42,7 +42,7 @@ impl Default for Output {
 }
 
 impl FileWish {
-    /// Name of the file, if it is wanted.
+    /// Name of the file, if it is to be written.
     #[must_use]
     pub fn file_name(&self, usual: impl FnOnce() -> String) -> Option<String> {
         match self {
@@ -52,7 +52,7 @@ impl FileWish {
         }
     }
 
-    /// Returns true if the file is wanted at all.
+    /// Returns true if the file is to be written.
     #[must_use]
     pub fn is_wanted(&self) -> bool {
         *self != Self::No

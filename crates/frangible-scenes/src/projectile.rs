@@ -1,11 +1,11 @@
-//! Projectiles that are thrown at the bodies.
+//! Projectiles.
 
 use frangible::glam::Vec3;
 
-/// Something unbreakable thrown at a body.
+/// An unbreakable projectile.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Projectile {
-    /// Its form.
+    /// Shape of the projectile.
     pub kind: ProjectileKind,
     /// Mass, kg.
     pub mass: f64,
@@ -15,24 +15,24 @@ pub struct Projectile {
     pub speed: f64,
     /// Material preset.
     pub material: String,
-    /// Number of the body it is aimed at, from 0.
+    /// Index of the target body, from 0.
     pub target: usize,
-    /// Point that it is aimed at, m from the body's centre of mass, world axes.
+    /// Aim point, m from the body's centre of mass, in world axes.
     pub at: Vec3,
     /// Direction of flight, of any length.
     pub toward: Vec3,
-    /// Time at which it sets out, s after the beginning.
+    /// Time at which it starts, s.
     pub delay: f64,
-    /// Time for which it stays after that, s: a hammer is lifted again. `None`: to the end.
+    /// Time after which it is removed, s, such as for a hammer that is lifted again. `None`: it stays to the end.
     pub stays: Option<f64>,
 }
 
-/// Form of a projectile.
+/// Shape of a projectile.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ProjectileKind {
     /// A solid ball.
     Ball,
-    /// A hammer's head: a cylinder along the flight with a crowned striking face in front, as long as its mass asks for.
+    /// A hammer head: a cylinder along the flight direction with a crowned striking face; its length follows from its mass.
     Hammer {
         /// Radius of curvature of the striking face, m; never less than the face's radius.
         crown: f64,
@@ -40,7 +40,7 @@ pub enum ProjectileKind {
 }
 
 impl ProjectileKind {
-    /// A hammer whose face is crowned as usual: 60 mm.
+    /// A hammer with a usual crown radius of 60 mm.
     pub const HAMMER: Self = Self::Hammer { crown: 0.06 };
 
     /// Name in scene files.
@@ -54,7 +54,7 @@ impl ProjectileKind {
 }
 
 impl Projectile {
-    /// A steel ball of this mass (kg), radius (m) and speed (m/s) at the first body's centre, along −z.
+    /// A steel ball with this mass (kg), radius (m) and speed (m/s), aimed at the centre of the first body along −z.
     #[must_use]
     pub fn ball(mass: f64, radius: f64, speed: f64) -> Self {
         Self {
@@ -71,7 +71,7 @@ impl Projectile {
         }
     }
 
-    /// A steel hammer head of this mass (kg), radius of its face (m) and speed (m/s) from above.
+    /// A steel hammer head with this mass (kg), radius of its face (m) and speed (m/s), from above.
     #[must_use]
     pub fn hammer(mass: f64, radius: f64, speed: f64) -> Self {
         Self {

@@ -11,15 +11,15 @@ use frangible_sound::Sounding;
 pub struct Run {
     /// The animation.
     pub recording: Recording,
-    /// Each of its nodes as a sound source.
+    /// The sound source of each node of the recording.
     pub soundings: Vec<Sounding>,
     /// The breaks, in the order of time.
     pub breaks: Vec<BreakRecord>,
-    /// The hardest impact on each body that did not break it, if any, in the order of the bodies.
+    /// For each body in order, the hardest impact that did not break it, if any.
     pub held: Vec<HeldRecord>,
-    /// All blows on a body or its pieces that were put to the fracture, in the order of time.
+    /// All blows on bodies and pieces that were tested for fracture, in the order of time.
     pub blows: Vec<BlowRecord>,
-    /// True if everything but projectiles lay still at the end.
+    /// True if everything except projectiles was at rest at the end.
     pub at_rest: bool,
     /// Simulated time, s.
     pub simulated: f64,
@@ -38,7 +38,7 @@ pub struct HeldRecord {
     pub time: f64,
     /// The contacts, body frame.
     pub contacts: Vec<Contact>,
-    /// Strength over the stress, or over a bound of it: see [`frangible::Outcome::Held`].
+    /// Strength over the stress, or over an upper bound of it: see [`frangible::Outcome::Held`].
     pub margin: f64,
     /// Report of the fracture.
     pub report: ImpactReport,
@@ -49,17 +49,17 @@ pub struct HeldRecord {
 pub struct BlowRecord {
     /// Number of the body, from 0.
     pub body: usize,
-    /// 0 if it hit the body itself, 1 for a piece of it, 2 for a piece of that.
+    /// Generation of the struck body: 0 for the body itself, 1 for a piece of it, 2 for a piece of that piece.
     pub generation: u32,
     /// Simulated time, s.
     pub time: f64,
-    /// The fastest of its contacts, m/s.
+    /// Largest approach speed of its contacts, m/s.
     pub approach_speed: f64,
     /// Kinetic energy of approach, J.
     pub approach_energy: f64,
-    /// True if it parted the body.
+    /// True if the body broke.
     pub broke: bool,
-    /// Strength over the stress, or over a bound of it, if the body held.
+    /// Strength over the stress, or over an upper bound of it, if the body held.
     pub margin: Option<f64>,
 }
 
@@ -90,7 +90,7 @@ impl BlowRecord {
 pub struct BreakRecord {
     /// Number of the body, from 0.
     pub body: usize,
-    /// 0 if the body itself broke, 1 for a piece of it, 2 for a piece of that.
+    /// Generation of the broken body: 0 for the body itself, 1 for a piece of it, 2 for a piece of that piece.
     pub generation: u32,
     /// Simulated time, s.
     pub time: f64,
@@ -98,7 +98,7 @@ pub struct BreakRecord {
     pub contacts: Vec<Contact>,
     /// Report of the break.
     pub report: ImpactReport,
-    /// Masses of the pieces, kg, falling.
+    /// Masses of the pieces in descending order, kg.
     pub masses: Vec<f64>,
     /// Sum of the pieces' volumes, m³.
     pub volume: f64,
@@ -106,7 +106,7 @@ pub struct BreakRecord {
     pub energy_paid: f64,
     /// Cause of the break.
     pub cause: BreakCause,
-    /// Kinetic energy of the body, and of all that it pushed in the step of the break, directly or through others, before that step, J.
+    /// Kinetic energy before the step of the break, J: of the body and of all bodies that it pushed in that step, directly or indirectly.
     pub kinetic_before: f64,
     /// Kinetic energy of the pieces and of the others after that step, J.
     pub kinetic_after: f64,
@@ -120,9 +120,9 @@ pub struct BreakRecord {
 const ROUNDING: f64 = 1e-5;
 
 impl BreakRecord {
-    /// Describes the energy that the break has made out of nothing, if it has. The motion of approach holds no more than the motion, the vibration
-    /// no more than the approach brought (and friction, where there is some), the cracks no more than either; motion and cracks together
-    /// have no more than the motion had before.
+    /// Describes a violation of energy conservation by the break, or returns `None`. The approach energy must not exceed the kinetic energy, the
+    /// strain energy must not exceed the approach energy (plus friction), the crack energy must exceed neither, and kinetic and crack energy
+    /// together must not exceed the kinetic energy before.
     #[must_use]
     pub fn energy_created(&self) -> Option<String> {
         let r = &self.report;

@@ -1,7 +1,7 @@
-//! Lets a scene happen, and records it.
+//! Simulates and records a scene.
 //!
-//! Steps are fine until a body breaks: at 1/240 s a falling body moves 2 cm in a step, and Rapier shares the blow among points
-//! that are not there yet. At 1/3840 s there is one contact, where it is.
+//! Steps are short until a body breaks: at 1/240 s a falling body moves 2 cm per step, and Rapier distributes the blow over predicted contact
+//! points. At 1/3840 s there is a single contact at the right place.
 
 use std::collections::BTreeMap;
 
@@ -36,10 +36,10 @@ const ROLLING: f32 = 0.8;
 /// Seconds recorded after everything came to rest.
 const REST: f32 = 0.25;
 
-/// Plays the scene with its baked bodies and records it; `progress` gets the share of the longest duration done.
+/// Simulates and records the scene with its baked bodies. `progress` receives the simulated share of the scene's duration.
 ///
 /// # Errors
-/// A quantity of the scene that cannot be used, or not as many baked bodies as the scene has.
+/// An invalid quantity of the scene, or a wrong number of baked bodies.
 pub fn play(
     scene: &Scene,
     baked: &[BakedBody],

@@ -8,12 +8,12 @@ use crate::body::BodySpec;
 use crate::output::Output;
 use crate::projectile::Projectile;
 
-/// Breakable bodies above a floor (y = 0, y up), dropped or hit.
+/// A scene: breakable bodies above a floor (y = 0, y up), dropped or hit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
-    /// Name, also of the files it makes.
+    /// Name of the scene and of its output files.
     pub name: String,
-    /// One line about its subject.
+    /// One-line description.
     pub summary: String,
     /// Bodies that may break; at least one.
     pub bodies: Vec<BodySpec>,
@@ -21,42 +21,42 @@ pub struct Scene {
     pub projectiles: Vec<Projectile>,
     /// Material preset of the floor, if there is one.
     pub floor: Option<String>,
-    /// Seed of weak points and crack roughness.
+    /// Random seed of weak points and crack roughness.
     pub seed: u64,
-    /// Switches and numbers of the fracture.
+    /// Settings of the fracture model.
     pub fracture: FractureConfig,
-    /// Settings for pieces that break again.
+    /// Settings of pieces that can break again.
     pub pieces: PieceSpec,
-    /// Mortar between bodies whose faces touch, if there is any: its tensile strength, Pa.
+    /// Tensile strength of the mortar between bodies with touching faces, Pa; `None` for no mortar.
     pub mortar: Option<f64>,
-    /// Adhesive between the faces of bodies that lie close to each other, if there is any.
+    /// Adhesive between adjacent faces of bodies; `None` for no adhesive.
     pub adhesive: Option<Adhesive>,
-    /// Longest simulated time, s; the scene ends sooner when everything rests.
+    /// Largest simulated time, s; the scene ends earlier if everything is at rest.
     pub duration: f64,
     /// Direction from the subject towards the camera.
     pub look_from: Vec3,
-    /// Files it asks for.
+    /// Output files.
     pub output: Output,
 }
 
-/// A thin layer between bodies: glue, the film in laminated glass. It holds patch by patch, so that the pieces of a broken body stay where
-/// each of them is bonded. The vibrations of the bodies do not know of it.
+/// A thin adhesive layer between bodies, such as glue or the film in laminated glass. It bonds in patches, so that each piece of a broken body
+/// stays bonded. It does not affect the vibration of the bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Adhesive {
-    /// Stress of pull, bending or shear at which a patch gives way, Pa.
+    /// Strength of a patch under tension, bending or shear, Pa.
     pub strength: f64,
-    /// Side of a patch, m. Smaller patches hold smaller pieces, and cost more.
+    /// Side length of a patch, m. Smaller patches hold smaller pieces and cost more.
     pub patch: f64,
 }
 
-/// Settings for pieces that break again, and for finding their modes.
+/// Settings of pieces that can break again, and of the computation of their modes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PieceSpec {
-    /// Generations of pieces that can break again; 0: none.
+    /// Number of generations of pieces that can break again; 0 for none.
     pub generations: u32,
-    /// Mass of the lightest pieces that can, kg.
+    /// Smallest mass of a piece that can break again, kg.
     pub least_mass: f64,
-    /// Method by which their modes are found.
+    /// Method for computing their modes.
     pub method: Method,
 }
 
@@ -91,7 +91,7 @@ impl Scene {
         }
     }
 
-    /// Drops every body from this height of its lowest point, m, and throws nothing.
+    /// Drops every body with its lowest point at this height, m, and removes the projectiles.
     pub fn drop_all(&mut self, height: f64) {
         self.projectiles.clear();
         for body in &mut self.bodies {
@@ -99,7 +99,7 @@ impl Scene {
         }
     }
 
-    /// Stands every body that was to fall on the floor, and throws this instead of the projectiles before.
+    /// Places dropped bodies on the floor, and replaces the projectiles by this one.
     pub fn throw(&mut self, projectile: Projectile) {
         self.projectiles = vec![projectile];
         for body in &mut self.bodies {

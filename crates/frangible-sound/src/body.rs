@@ -12,11 +12,11 @@ use crate::waves::HARMONICS;
 pub struct Body {
     /// Name, for messages.
     pub name: String,
-    /// Mass that moves as a whole, kg; infinite for a body that is held, which then sounds by its modes alone.
+    /// Mass of the rigid motion, kg; infinite for a supported body, which sounds only by its modes.
     pub mass: f64,
     /// Sphere that radiates its motion as sound.
     pub sphere: EquivalentSphere,
-    /// Its modes of vibration; may be empty, and then only its motion as a whole is heard.
+    /// Vibration modes; if empty, only the rigid motion is audible.
     pub modes: Vec<Mode>,
 }
 
@@ -25,9 +25,9 @@ pub struct Body {
 pub struct Mode {
     /// Natural frequency, Hz.
     pub frequency: f64,
-    /// Loss of its energy, 1/s: that of the material, the air and the hold together. Amplitudes fall as e^{−loss·t/2}.
+    /// Total energy loss rate, 1/s: material, radiation and support. Amplitudes fall as e^{−loss·t/2}.
     pub loss: f64,
-    /// Part of the loss that goes into the air, 1/s.
+    /// Part of the loss rate due to radiation, 1/s.
     pub radiated: f64,
     /// Normal motion of the [equivalent sphere](EquivalentSphere) per unit of modal motion, 1/√kg, one per
     /// [harmonic](crate::harmonic).
@@ -77,8 +77,8 @@ impl Body {
         Ok(body)
     }
 
-    /// Velocity along a unit direction that one newton-second along it gives a point, m, as if the body were rigid, m/s: 1/m and
-    /// the turning, with the inertia of a body whose second moments are those of its surface.
+    /// Velocity change at a point, m, along a unit direction by an impulse of 1 N·s along it, m/s, for a rigid body with the second moments of its
+    /// surface.
     #[must_use]
     pub fn yields(&self, point: Vec3, direction: Vec3) -> f64 {
         if self.mass.is_infinite() {
@@ -97,7 +97,7 @@ impl Body {
     /// Checks every number.
     ///
     /// # Errors
-    /// The first number at fault.
+    /// The first invalid number.
     pub fn validate(&self) -> Result<(), SoundError> {
         let name = &self.name;
         if self.mass.is_nan() || self.mass <= 0.0 {

@@ -12,9 +12,9 @@ pub struct SynthConfig {
     pub listener: Listener,
     /// The floor, if there is one.
     pub floor: Option<SoundFloor>,
-    /// Resonators that ring at once, default 16 384. Fewer cost less time, and the quietest are left out.
+    /// Largest number of simultaneous resonators, default 16 384. Beyond it, the quietest are omitted.
     pub budget: usize,
-    /// Strikes that begin in one block of 128 samples, default 4096. Of more, those of the least impulse are left out.
+    /// Largest number of strikes that start in a block of 128 samples, default 4096. Beyond it, those with the smallest impulses are omitted.
     pub strikes: usize,
 }
 
@@ -31,7 +31,7 @@ impl SynthConfig {
         }
     }
 
-    /// These settings for a game: a budget of 1000 resonators and 64 strikes per block.
+    /// Reduces the limits for games: 1000 resonators and 64 strikes per block.
     #[must_use]
     pub fn live(self) -> Self {
         Self {
@@ -44,7 +44,7 @@ impl SynthConfig {
     /// Checks every number.
     ///
     /// # Errors
-    /// The first number at fault.
+    /// The first invalid number.
     pub fn validate(&self) -> Result<(), SoundError> {
         let fits = (8_000.0..=192_000.0).contains(&self.rate);
         within(
@@ -63,14 +63,14 @@ impl SynthConfig {
 pub struct SynthReport {
     /// Loudest pressure, Pa.
     pub peak: f64,
-    /// Most resonators that rang at once.
+    /// Largest number of simultaneous resonators.
     pub most_resonators: usize,
-    /// Most bodies that rang at once.
+    /// Largest number of simultaneously ringing bodies.
     pub most_bodies: usize,
-    /// Resonators that were let go because louder ones of the same pitch mask them.
+    /// Number of resonators dropped because louder ones of the same pitch mask them.
     pub masked: u64,
-    /// Resonators that were let go because there were more than the budget.
+    /// Number of resonators dropped because of the limit.
     pub over_budget: u64,
-    /// Strikes that were left out because too many began at once.
+    /// Number of strikes omitted because too many started at once.
     pub strikes_left_out: u64,
 }

@@ -1,17 +1,17 @@
-//! Decay of audible tones, apart from the damping of the fracture.
+//! Damping of audible tones, separate from the damping of the fracture model.
 //!
-//! A break is over in a millisecond and does not care how long 10 kHz ring; the ear does. The numbers of the fracture let glass ring ten times
-//! too long there, so sound has damping of its own, in three parts that add up: the material's, here; what the body [radiates](crate::Body),
-//! which follows from its modes; and what [supports](Hold) take.
+//! A break is over in a millisecond, so the damping at 10 kHz does not affect it, but it is audible: with the values of the fracture model, glass
+//! would ring ten times too long. Sound therefore has its own damping, the sum of three parts: the material, defined here; the
+//! [radiation](crate::Body), which follows from the modes; and the [supports](Hold).
 
 use frangible::Material;
 
-/// Loss of a mode's energy in its material: it falls as e^{−dt}, its amplitude as e^{−dt/2}, with d = α + β ω² + η ω.
+/// Material damping of a mode: its energy falls as e^{−dt}, its amplitude as e^{−dt/2}, with d = α + β ω² + η ω.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AudibleDamping {
-    /// Rayleigh's α of the mass, 1/s.
+    /// Mass-proportional Rayleigh coefficient α, 1/s.
     pub mass: f64,
-    /// Rayleigh's β of the stiffness, s.
+    /// Stiffness-proportional Rayleigh coefficient β, s.
     pub stiffness: f64,
     /// Loss factor η, the same at all frequencies.
     pub loss_factor: f64,
@@ -115,14 +115,14 @@ const KNOWN: [Known; 12] = [
 ];
 
 impl AudibleDamping {
-    /// The damping of a material by its name, and its source.
+    /// Published damping of a material by its name, with its source.
     #[must_use]
     pub fn published(name: &str) -> Option<(Self, &'static str)> {
         let known = KNOWN.iter().find(|known| known.names.contains(&name))?;
         Some((known.damping, known.source))
     }
 
-    /// The published damping of a material, or the fracture's own of one with an unknown name.
+    /// Published damping of a material, or the damping of its fracture model if its name is unknown.
     #[must_use]
     pub fn of(material: &Material) -> Self {
         Self::published(&material.name).map_or(
@@ -138,19 +138,19 @@ impl AudibleDamping {
     }
 }
 
-/// Support of a body while it rings, which takes energy from it.
+/// Support of a ringing body, which adds damping.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Hold {
-    /// Nothing: it flies, or touches only for moments.
+    /// Free: the body flies or touches other bodies only briefly.
     #[default]
     Free,
-    /// It stands or lies on something: a loss of 4/s, by which a glass on a table rings half as long at its lowest tone. An estimate;
+    /// Standing or lying on something: a loss of 4/s, by which a glass on a table rings half as long at its lowest tone. An estimate;
     /// stone takes far less, by the mobility of its half-space, and a cloth far more.
     Standing,
-    /// Its edge is set in a frame with putty or mortar: a loss factor of 0.02, in the middle of 0.01 to 0.03 that the standard EN 12354-1
+    /// Edge set in a frame with putty or mortar: a loss factor of 0.02, in the middle of 0.01 to 0.03 that the standard EN 12354-1
     /// gives for building elements with their joints.
     Framed,
-    /// A hand: a loss of 60/s, an estimate.
+    /// Held in a hand: a loss of 60/s, an estimate.
     Hand,
 }
 

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-/// Error in the input of the synthesis; each message says how to mend it.
+/// Error in the input of the synthesis. Each message says how to fix it.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum SoundError {

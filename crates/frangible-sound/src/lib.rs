@@ -1,20 +1,20 @@
 //! The sound of breaking bodies, from the same vibration modes and forces that break them: plain data in, samples out.
 //!
-//! A [`Synth`] gets [bodies](Body), their places and their events: [strikes](Strike) with their forces over time, which are those
-//! that the fracture found, cracks with their energy, breaks. It hands out pressures, Pa, at the ears. It knows no audio device and no threads,
-//! and the same calls give the same samples.
+//! The input of a [`Synth`] are [bodies](Body), their positions and their events: [strikes](Strike) with the force histories of the fracture
+//! model, cracks with their energy, and breaks. Its output is the sound pressure at the ears, Pa. It needs no audio device and no threads, and
+//! the same calls give the same samples.
 //!
-//! - **Modes** are resonators, driven by the force itself, exactly between its values.
+//! - **Modes** are resonators driven by the force history, integrated exactly for linear interpolation.
 //! - **Radiation** and direction come in closed form from an [equivalent sphere](EquivalentSphere): the motion of the surface on spherical
 //!   harmonics, times outgoing spherical waves.
-//! - **The motion as a whole** of a struck body is heard too: small pieces, which ring too high for any ear, sound by it alone.
-//! - **Damping** is [the ear's own](AudibleDamping), not the fracture's, with the losses to the air and to supports.
-//! - **Pieces** without modes of their own ring as a [free plate](Plate) of their size.
-//! - **The floor** reflects and is struck itself; the [listener](Listener) has two ears, to which sound takes its time.
-//! - **The budget** lets the loudest ring and masked ones go, without a click.
-//! - **A scene** of such bodies, or a game's world, is heard by a [`Hearing`], which needs to be told the events and nothing else.
-//! - **The volume** is the caller's choice: [`wav()`] scales by a full scale, and for live play a soft [`Limiter`] bends pressures that are too
-//!   loud, and reports it.
+//! - **The rigid motion** of a struck body is included; small pieces, whose modes are above the range of hearing, sound by it alone.
+//! - **Damping** is [separate](AudibleDamping) from that of the fracture model, with losses by radiation and supports.
+//! - **Pieces** without modes ring as a [free plate](Plate) of their size.
+//! - **The floor** reflects sound and sounds itself when struck; the [listener](Listener) has two ears with travel times.
+//! - **A limit** on the number of resonators keeps the loudest and drops masked ones, without clicks.
+//! - **A scene**, or the world of a game, is converted to sound by a [`Hearing`], which only needs the events.
+//! - **The volume** is up to the caller: [`wav()`] scales by a full-scale pressure, and for live playback a soft [`Limiter`] reduces and reports
+//!   excessive pressures.
 //!
 //! ```
 //! use std::sync::Arc;
@@ -46,8 +46,7 @@
 //! # }
 //! ```
 //!
-//! Not modelled: sound that bends around other bodies; rooms.
-//! Everything is in SI units, and y is up.
+//! Not modelled: diffraction around other bodies, and room acoustics. All quantities are in SI units, and y is up.
 
 mod air;
 mod bank;

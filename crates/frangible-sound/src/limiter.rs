@@ -1,4 +1,4 @@
-//! A soft limiter for live play, where the loudest pressure is not known before. It reports what it did.
+//! A soft limiter for live playback, where the largest pressure is not known in advance.
 
 use crate::error::{SoundError, checked_full_scale};
 
@@ -16,7 +16,7 @@ pub struct LimiterReport {
 /// Share of full scale up to which a pressure stays as it is; above it, it is bent ever more.
 const KNEE: f64 = 0.7;
 
-/// Makes pressures fit a loudspeaker, −1 to 1; those above 0.7 of full scale are bent.
+/// Converts pressures to samples from −1 to 1, with soft limiting above 0.7 of full scale.
 #[derive(Clone, Debug)]
 pub struct Limiter {
     /// Pressure of full scale, Pa.
@@ -35,7 +35,7 @@ impl Default for Limiter {
 }
 
 impl Limiter {
-    /// A limiter with a pressure of full scale, Pa; [`Limiter::default`] has 20.
+    /// A limiter with this full-scale pressure, Pa; [`Limiter::default`] uses 20.
     ///
     /// # Errors
     /// A pressure that is not finite or not above zero.
@@ -52,7 +52,7 @@ impl Limiter {
         self.report
     }
 
-    /// The sample of a pressure, Pa: inside ±1, with a continuous slope.
+    /// Converts a pressure, Pa, to a sample within ±1, with a continuous slope.
     #[must_use]
     pub fn sample(&mut self, pressure: f32) -> f32 {
         let size = f64::from(pressure.abs());

@@ -1,4 +1,4 @@
-//! The listener, and the ways by which sound comes to the ears.
+//! The listener, and the sound paths to the ears.
 
 use frangible::Material;
 use glam::DVec3;
@@ -9,11 +9,11 @@ use crate::error::{SoundError, finite, within};
 /// A pair of ears, or one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Listener {
-    /// The middle of the head, m.
+    /// Position of the head, m.
     pub place: DVec3,
     /// Unit direction to the right.
     pub right: DVec3,
-    /// 2: stereo, left and right; 1: mono, in the middle.
+    /// Number of channels: 2 for stereo, left and right; 1 for mono.
     pub channels: usize,
 }
 
@@ -27,7 +27,7 @@ const FARTHEST: f64 = 300.0;
 const NEAREST: f64 = 0.05;
 
 impl Listener {
-    /// Two ears at a place, m, that look at another, m; up is y.
+    /// A stereo listener at a position, m, facing another, m; y is up.
     #[must_use]
     pub fn at(place: DVec3, towards: DVec3) -> Self {
         let right = (towards - place).cross(DVec3::Y);
@@ -74,7 +74,7 @@ impl Listener {
     }
 }
 
-/// A hard level floor: it reflects the sound above it, and is struck itself.
+/// A hard level floor, which reflects sound and sounds itself when struck.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SoundFloor {
     /// Its y coordinate, m.
@@ -100,7 +100,7 @@ impl SoundFloor {
         }
     }
 
-    /// A floor of a material at this height, m; it reflects as stone does.
+    /// A floor of this material at this height, m, with the reflection of stone.
     #[must_use]
     pub fn of(material: &Material, height: f64) -> Self {
         Self {

@@ -1,4 +1,4 @@
-//! Samples on their way to a loudspeaker: a queue that two threads share.
+//! A queue of samples for playback, shared by two threads.
 
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -16,7 +16,7 @@ const MOST: f64 = 0.5;
 /// Share of the last sample that the next one keeps where the queue ran empty, so that the end is no click.
 const FADE: f32 = 0.98;
 
-/// A queue of samples, −1 to 1, left and right in turn. Its clones are one and the same.
+/// A queue of samples, −1 to 1, left and right interleaved. Clones share one queue.
 #[derive(Clone, Debug)]
 pub struct Outlet {
     rate: f64,
@@ -33,7 +33,7 @@ struct Waiting {
 }
 
 impl Outlet {
-    /// An empty queue for a loudspeaker of this rate, samples per second.
+    /// An empty queue with this sampling rate, samples per second.
     #[must_use]
     pub fn new(rate: f64) -> Self {
         Self {
@@ -52,7 +52,7 @@ impl Outlet {
         self.waiting.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Fills `out` with the next samples; silence where none wait.
+    /// Fills `out` with the next samples, or with silence if the queue is empty.
     pub fn play(&self, out: &mut [f32]) {
         let mut waiting = self.waiting();
         waiting.flows |= waiting.samples.len() >= self.values(AHEAD) + out.len();
@@ -69,18 +69,18 @@ impl Outlet {
         }
     }
 
-    /// Takes all samples that wait.
+    /// Removes and returns all queued samples.
     #[must_use]
     pub fn drain(&self) -> Vec<f32> {
         self.waiting().samples.drain(..).collect()
     }
 
-    /// Forgets the samples that wait.
+    /// Discards the queued samples.
     pub fn clear(&self) {
         self.waiting().samples.clear();
     }
 
-    /// Adds samples to the queue, unless half a second waits already.
+    /// Adds samples to the queue, unless it already holds half a second.
     pub fn put(&self, samples: &[f32]) {
         let mut waiting = self.waiting();
         if waiting.samples.len() <= self.values(MOST) {

@@ -1,4 +1,4 @@
-//! The front door: bodies and events in, pressures out.
+//! The synthesiser: bodies and events in, pressures out.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -25,7 +25,7 @@ pub(crate) enum Event {
     Listen(Listener),
 }
 
-/// Makes sound of bodies and strikes, block by block. The same calls give the same samples, however many are asked for at a time.
+/// Synthesiser for the sound of bodies and strikes. The same calls give the same samples, regardless of how many are rendered at a time.
 #[derive(Clone, Debug)]
 pub struct Synth {
     pub(crate) config: SynthConfig,
@@ -51,7 +51,7 @@ impl Synth {
     /// A synthesiser at time zero, without bodies.
     ///
     /// # Errors
-    /// A number of the configuration that is not finite or out of its range.
+    /// A number of the configuration that is not finite or out of range.
     pub fn new(config: SynthConfig) -> Result<Self, SoundError> {
         config.validate()?;
         let long = (longest_delay(config.rate) + 2 * BLOCK).next_power_of_two();
@@ -77,7 +77,7 @@ impl Synth {
         &self.config
     }
 
-    /// Time of the next sample that is handed out, s.
+    /// Time of the next rendered sample, s.
     #[must_use]
     pub fn time(&self) -> f64 {
         let waiting = self.ready.len() / self.config.listener.channels;
@@ -90,16 +90,16 @@ impl Synth {
         self.report
     }
 
-    /// Resonators that ring now.
+    /// Number of active resonators.
     #[must_use]
     pub fn resonators(&self) -> usize {
         self.voices.iter().flatten().map(|v| v.slots.len()).sum()
     }
 
-    /// Adds a body at a place, m, with this rotation, and returns its number.
+    /// Adds a body with this position, m, and rotation, and returns its number.
     ///
     /// # Errors
-    /// A number of the body or of its place at fault.
+    /// An invalid number of the body or its position.
     pub fn add(
         &mut self,
         body: Arc<Body>,
@@ -119,7 +119,7 @@ impl Synth {
         Ok(index)
     }
 
-    /// Takes a body out at once. Its number may be given to another one.
+    /// Removes a body immediately. Its number may be reused.
     ///
     /// # Errors
     /// There is no such body.
@@ -134,7 +134,7 @@ impl Synth {
         Ok(())
     }
 
-    /// Moves a body at a time, s. Its sound comes from there within 128 samples.
+    /// Moves a body at a time, s. The change takes effect within 128 samples.
     ///
     /// # Errors
     /// There is no such body, or a number is not finite.
@@ -150,16 +150,16 @@ impl Synth {
         self.event(time, Event::Put(body, place, rotation.normalize()))
     }
 
-    /// Strikes a body at a time, s; a time that has passed is now.
+    /// Strikes a body at a time, s; a time in the past means now.
     ///
     /// # Errors
-    /// There is no such body, or a number of the strike is at fault.
+    /// An unknown body, or an invalid number of the strike.
     pub fn strike(&mut self, time: f64, body: usize, strike: Strike) -> Result<(), SoundError> {
         strike.validate(self.body(body)?)?;
         self.event(time, Event::Strike(body, strike))
     }
 
-    /// Silences a body within 32 samples from a time on, s: it is no more, its pieces ring instead.
+    /// Silences a body within 32 samples from a time on, s, for example when it breaks and its pieces replace it.
     ///
     /// # Errors
     /// There is no such body, or the time is not finite.
@@ -168,7 +168,7 @@ impl Synth {
         self.event(time, Event::Hush(body))
     }
 
-    /// Pushes the floor at a time, s, and a place, m, straight down. Without a floor nothing is heard.
+    /// Pushes the floor straight down at a time, s, and a position, m. No effect without a floor.
     ///
     /// The ground under a force F gives way by (1−ν) F/(2πGR) at a distance R (Boussinesq). Sound in air is slower than all waves in a solid, so
     /// that towards the angle θ from the vertical the ground follows the force at once, and its Rayleigh integral is closed:
@@ -182,10 +182,10 @@ impl Synth {
         self.event(time, Event::Thump(place, pulse))
     }
 
-    /// Moves the listener at a time, s: all sound is heard from the new place within 128 samples.
+    /// Moves the listener at a time, s. The change takes effect within 128 samples.
     ///
     /// # Errors
-    /// A place or a direction that cannot be used, or another number of channels than the synthesiser has.
+    /// An invalid position or direction, or a different number of channels.
     pub fn listen(&mut self, time: f64, listener: Listener) -> Result<(), SoundError> {
         listener.validate()?;
         let channels = self.config.listener.channels;
@@ -214,15 +214,15 @@ impl Synth {
         Ok(())
     }
 
-    /// Returns true if nothing is heard any more and nothing is to come.
+    /// Returns true if nothing sounds and no events are pending.
     #[must_use]
     pub fn is_silent(&self) -> bool {
         let delays = self.coming.first().map_or(0, Vec::len) / BLOCK;
         self.events.is_empty() && self.silent > delays && self.ready.iter().all(|&s| s == 0.0)
     }
 
-    /// Fills `out` with the pressures of the next samples, Pa, left and right in turn where there are two channels. A
-    /// [`Limiter`](crate::Limiter) makes them fit a loudspeaker.
+    /// Fills `out` with the pressures of the next samples, Pa, interleaved for two channels. A [`Limiter`](crate::Limiter) converts them to
+    /// samples for playback.
     pub fn render(&mut self, out: &mut [f32]) {
         for sample in out {
             if self.ready.is_empty() {
@@ -232,7 +232,7 @@ impl Synth {
         }
     }
 
-    /// All samples, Pa, until nothing is heard any more, for at most `most` seconds.
+    /// Renders all samples, Pa, until silence, but at most `most` seconds.
     ///
     /// # Errors
     /// A time that is not finite or not above zero.
