@@ -21,14 +21,13 @@ const MOST_CELLS: usize = 10_000;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Options {
-    /// Seed of the Voronoi sites; weak points are the body's own. Default 1.
+    /// Random seed for the Voronoi sites; weak points are those of the body. Default 1.
     pub seed: u64,
-    /// Time over which the quasi-static method spreads the impulse, s: the longer, the smaller the force. Default
-    /// [`DEFAULT_STEP`].
+    /// Duration over which the quasi-static method spreads the impulse, s: longer means a smaller force. Default [`DEFAULT_STEP`].
     pub step: f64,
-    /// Sites drawn by strain energy. Default [`DEFAULT_SITES`].
+    /// Number of Voronoi sites sampled by strain energy. Default [`DEFAULT_SITES`].
     pub sites: usize,
-    /// Sites around the impact point. Default none: as many as ours has pieces, 2 at least.
+    /// Number of Voronoi sites around the impact point. Default `None`: the number of pieces of our method, at least 2.
     pub cells: Option<usize>,
 }
 
@@ -68,10 +67,10 @@ impl Options {
     }
 }
 
-/// Breaks the body by each of these methods. Calls `before` with each of them as it begins.
+/// Breaks the body with each of these methods. Calls `before` with each method before it starts.
 ///
 /// # Errors
-/// A piece of a broken body, contacts without an impulse or that the fracture model refuses, an option out of its range.
+/// A piece of a broken body, contacts without impulse or rejected by the fracture model, an option out of range.
 pub fn compare(
     hit: Hit<'_>,
     methods: &[Method],

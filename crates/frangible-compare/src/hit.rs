@@ -1,4 +1,4 @@
-//! The impact that all methods take.
+//! The impact to compare methods on.
 
 use frangible::glam::{DVec3, Vec3};
 use frangible::{Body, Contact, FractureConfig};
@@ -8,12 +8,12 @@ use crate::error::CompareError;
 /// A whole body and its contacts.
 #[derive(Clone, Copy, Debug)]
 pub struct Hit<'a> {
-    /// The body before it. Cracks that it has already are felt by [`Method::Ours`](crate::Method::Ours) and
-    /// [`Method::QuasiStatic`](crate::Method::QuasiStatic); the others take it as intact.
+    /// The body before the impact. [`Method::Ours`](crate::Method::Ours) and [`Method::QuasiStatic`](crate::Method::QuasiStatic) take existing cracks
+    /// into account; the other methods treat it as intact.
     pub body: &'a Body,
     /// Its contacts, body frame.
     pub contacts: &'a [Contact],
-    /// Switches and numbers of the fracture.
+    /// Settings of the fracture model.
     pub config: &'a FractureConfig,
 }
 

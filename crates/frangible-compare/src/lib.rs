@@ -1,15 +1,14 @@
-//! One impact, broken by several methods, so that they can be held side by side `[G12 §7.3.4]`.
+//! Comparison of several fracture methods on the same impact `[G12 §7.3.4]`.
 //!
-//! [`compare`] takes a body, its contacts and the configuration of its fracture, and gives the [pieces](Broken) of each
-//! [`Method`]:
+//! [`compare`] takes a body, its contacts and the fracture settings, and returns the [pieces](Broken) for each [`Method`]:
 //!
-//! | method | where the stress comes from | where the body parts |
+//! | method | source of the stress | fracture surfaces |
 //! |---|---|---|
-//! | [`Method::Ours`] | the vibration, step by step | implicit surfaces that follow it |
-//! | [`Method::QuasiStatic`] | a steady state: the impulse as a force over a stated time | the same |
-//! | [`Method::Elements`] | the vibration at its worst moment | faces of the fracture mesh |
-//! | [`Method::EnergyVoronoi`] | the vibration at its most strained moment | Voronoi cells, drawn by strain energy, apart where that pays |
-//! | [`Method::Voronoi`] | nowhere | Voronoi cells, densest around the impact |
+//! | [`Method::Ours`] | vibration, step by step | implicit surfaces steered by the stress |
+//! | [`Method::QuasiStatic`] | static state under the impulse as a force over a given time | the same |
+//! | [`Method::Elements`] | vibration at the moment of the largest stress | faces of the fracture mesh |
+//! | [`Method::EnergyVoronoi`] | vibration at the moment of the largest strain energy | Voronoi cells sampled by strain energy, if the energy suffices |
+//! | [`Method::Voronoi`] | none | Voronoi cells, densest around the impact |
 //!
 //! Each method's module describes the method, its source, and its simplifications. The pieces of all of them tile the body, and the same input and
 //! seed give the same bits.

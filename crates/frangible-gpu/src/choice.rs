@@ -14,14 +14,14 @@ use crate::loaded::Loaded;
 /// Least number of impacts that the two are compared with. With more threads it is one for each, since they prepare the GPU's work.
 const TRIAL: usize = 4;
 
-/// Choice of the processor that computes the impacts of a [`Solver`]. Cracks and pieces are the same bits in any case.
+/// Choice of the processor for the impacts of a [`Solver`]. Cracks and pieces are bit-identical in any case.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Choice {
     /// The CPU.
     Cpu,
     /// The GPU. Without a GPU this is an error.
     Gpu,
-    /// The faster one for a batch of its size, as found by a short trial with the first batches. Without a GPU, the CPU.
+    /// The faster one for the size of the batch, determined by a short trial with the first batches. Without a GPU, the CPU.
     #[default]
     Auto,
 }
@@ -31,19 +31,19 @@ pub enum Choice {
 pub enum RanOn {
     /// The CPU, on all its threads.
     Cpu,
-    /// The GPU, and the CPU for what it left.
+    /// The GPU, and the CPU for undecided impacts.
     Gpu,
 }
 
-/// Account of a batch's computation.
+/// Report of the computation of a batch.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Ran {
     /// Processor that was used.
     pub on: RanOn,
-    /// Reason for that choice, in a sentence.
+    /// Reason for the choice, as a sentence.
     pub why: String,
-    /// Impacts past the first bound: those that cost anything.
+    /// Number of impacts that the first bound did not decide.
     pub past_bound: usize,
 }
 
@@ -83,7 +83,7 @@ impl Solver {
     /// Makes a solver that uses the CPU, the GPU, or whichever is faster.
     ///
     /// # Errors
-    /// No usable GPU, where [`Choice::Gpu`] asks for one.
+    /// No usable GPU, with [`Choice::Gpu`].
     pub fn new(choice: Choice) -> Result<Self, GpuError> {
         let gpu = match choice {
             Choice::Cpu => Err(GpuError::NoAdapter),
@@ -94,10 +94,10 @@ impl Solver {
         Ok(Self { gpu, choice, speed })
     }
 
-    /// Makes a kind of body ready, once for all its bodies.
+    /// Prepares a kind of body, once for all its bodies.
     ///
     /// # Errors
-    /// A kind too large for the GPU, where [`Choice::Gpu`] asks for one; else the CPU computes it.
+    /// A kind that is too large for the GPU, with [`Choice::Gpu`]; otherwise the CPU is used.
     pub fn load(&self, kind: &Breakable) -> Result<Loaded, GpuError> {
         let Ok(gpu) = &self.gpu else {
             return Ok(Loaded::on_cpu(kind));
@@ -110,10 +110,10 @@ impl Solver {
         }
     }
 
-    /// Computes the outcome of each impact, as [`frangible::impact()`] one after another does.
+    /// Computes the outcome of each impact, like successive calls of [`frangible::impact()`].
     ///
     /// # Errors
-    /// A contact that cannot be used; with the GPU, the same as [`Gpu::impacts`].
+    /// An invalid contact; with the GPU, the errors of [`Gpu::impacts`].
     pub fn impacts(
         &mut self,
         impacts: &[Impact<'_>],

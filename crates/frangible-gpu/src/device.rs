@@ -6,7 +6,7 @@ use crate::error::GpuError;
 use crate::passes::Passes;
 use crate::scratch::Scratch;
 
-/// A graphics adapter made ready to compute. Calls from several threads take turns.
+/// A graphics adapter for computing. Concurrent calls are serialized.
 #[derive(Debug)]
 pub struct Gpu {
     pub(crate) device: wgpu::Device,
@@ -17,7 +17,7 @@ pub struct Gpu {
 }
 
 impl Gpu {
-    /// Opens the fastest adapter; one in software serves if there is no other.
+    /// Opens the fastest adapter, or a software adapter if there is no other.
     ///
     /// # Errors
     /// No adapter, or one below WebGPU's default limits.

@@ -1,4 +1,4 @@
-//! Impacts in batches: which of them held, and the outcomes of the others.
+//! Batches of impacts.
 
 use frangible::internals::{Stage, Vibration};
 use frangible::{Body, Contact, FractureConfig, Outcome};
@@ -42,9 +42,9 @@ impl<'a> Impact<'a> {
 /// Verdict of the GPU on an impact.
 #[derive(Clone, Debug)]
 pub enum Verdict {
-    /// The body clearly held. The second field is the crack initiation, unless the first bound had already refused the impact.
+    /// The body clearly held. The second field is the crack initiation, unless the first bound already ruled out cracks.
     Held(Outcome, Option<Initiation>),
-    /// The CPU has to go on, from a time step: `vibration.end(body, config, first_step)`.
+    /// The CPU has to continue from a time step: `vibration.end(body, config, first_step)`.
     Open {
         /// The vibration that was begun.
         vibration: Vibration,
@@ -56,11 +56,11 @@ pub enum Verdict {
 }
 
 impl Gpu {
-    /// Computes the outcome of each impact, as [`frangible::impact()`] one after another does. Bodies that the GPU finds clearly held end here; the
-    /// others end on the CPU, on all its threads.
+    /// Computes the outcome of each impact, like successive calls of [`frangible::impact()`]. Impacts that clearly held are decided on the GPU; the
+    /// others are finished on all threads of the CPU.
     ///
     /// # Errors
-    /// A contact that cannot be used, a body of another kind than said, a GPU that fails.
+    /// An invalid contact, a body of another kind than given, a failure of the GPU.
     pub fn impacts(
         &self,
         impacts: &[Impact<'_>],
@@ -91,10 +91,10 @@ impl Gpu {
             .collect())
     }
 
-    /// Crack initiation of each impact; `None` for those the first bound refuses, and for bodies that have cracks.
+    /// Crack initiation of each impact; `None` if the first bound rules out cracks, and for bodies with cracks.
     ///
     /// # Errors
-    /// The same as [`Self::impacts`].
+    /// The errors of [`Self::impacts`].
     pub fn initiation(
         &self,
         impacts: &[Impact<'_>],
@@ -131,7 +131,7 @@ impl Gpu {
         Ok(clock.map_or_else(Vec::new, Clock::into_times))
     }
 
-    /// Verdict on each impact: the body clearly held, or the CPU has to go on from a time step.
+    /// Verdict on each impact: the body clearly held, or the CPU has to continue from a time step.
     ///
     /// # Errors
     /// The same as [`Self::impacts`].

@@ -1,4 +1,4 @@
-//! Crack initiation of an impact: where and when its stress passes the strength.
+//! Crack initiation of an impact: tetrahedra and times at which the stress exceeds the strength.
 
 use frangible::internals::stress::{
     DisplacementBatch, Elasticity, Symmetric3, largest_eigenvalue, largest_eigenvalue_bound,
@@ -8,7 +8,7 @@ use frangible::{Body, FractureConfig};
 
 use crate::passes::HEADER;
 
-/// A largest tension within this share of the strength is the CPU's to judge.
+/// If the largest tensile stress is within this share of the strength, the CPU decides.
 pub const DOUBT: f32 = 1e-3;
 
 /// A bound this many times the smallest strength leaves a motion to the CPU: its amplitudes' rounding, 2e-5 of the largest,
@@ -18,16 +18,16 @@ const MOST_BOUND: f64 = 50.0;
 /// Most entries of [`Initiation::exceeding`].
 pub const LIST: usize = 64;
 
-/// A weak tetrahedron whose stress passes its strength.
+/// A weak tetrahedron whose stress exceeds its strength.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Exceedance {
     /// The fracture tetrahedron.
     pub tet: u32,
-    /// The first time step at which it does, from 0: at (step + 1) Δt after the contact began.
+    /// First such time step, from 0, at the time (step + 1) Δt after the start of the contact.
     pub step: usize,
-    /// Its largest principal tension then, Pa.
+    /// Its largest principal tensile stress at that step, Pa.
     pub stress: f32,
-    /// Its largest principal tension over all time, Pa.
+    /// Its largest principal tensile stress over all time, Pa.
     pub peak: f32,
 }
 
@@ -52,7 +52,7 @@ pub struct Initiation {
     pub passed_over: f32,
     /// Largest bound of the whole body at a time step, Pa; 0 where the CPU computed all this.
     pub bound: f32,
-    /// Strength over the largest tension or bound, each as the weakest tetrahedron would feel it.
+    /// Strength over the largest tensile stress or bound, each scaled to the weakest tetrahedron.
     pub margin: f64,
     /// First step with a tension above 1 − [`DOUBT`] of the strength.
     pub doubt: Option<usize>,
@@ -65,7 +65,7 @@ pub struct Initiation {
 }
 
 impl Initiation {
-    /// Returns true if [`Self::exceeding`] lacks some.
+    /// Returns true if [`Self::exceeding`] is incomplete.
     #[must_use]
     pub fn overflowed(&self) -> bool {
         self.exceeding.len() < self.exceeding_count

@@ -25,19 +25,19 @@
 //! report of a body that held are the GPU's. A body with cracks from earlier impacts goes to the CPU, and so does every impact where flaws have a
 //! size ([`FractureConfig::sized_flaws`](frangible::FractureConfig::sized_flaws)).
 //!
-//! # How exact it is
-//! The response is the recurrence of the CPU, stepped in `f32` from a state computed in `f64` every 64 steps: measured
-//! 4e-6 of a mode's largest amplitude, 2e-5 allowed by the test. Stress is taken where the CPU takes it
+//! # Accuracy
+//! The response uses the recurrence of the CPU, stepped in `f32` from a state computed in `f64` every 64 steps; the measured error is 4e-6 of a
+//! mode's largest amplitude, and the test allows 2e-5. Stress is evaluated at the same points as on the CPU
 //! ([`Body::weak_place`](frangible::Body::weak_place)), by the same laws: inside, beside free surfaces, at edges, not at
 //! flaws under a contact. Peak stresses of 120 impacts on three bodies differed by at most 6e-5 of the strength. Inside,
 //! where two principal tensions are equal and `f32` cannot tell them apart, 2.4e-4 was met. 1e-3 is left to the CPU.
 //!
-//! # What it asks for
-//! WebGPU's default limits and nothing else: 8 storage buffers per stage, bindings of 128 MiB, 256 invocations, no
-//! optional feature, no atomics. Adapters in software (Mesa's lavapipe, Windows' WARP) do.
+//! # Requirements
+//! Only WebGPU's default limits: 8 storage buffers per stage, bindings of 128 MiB, 256 invocations; no optional features and no atomics.
+//! Software adapters (Mesa's lavapipe, Windows' WARP) work too.
 //!
-//! [`Solver`] chooses between CPU and GPU by measurement. An adapter in software serves tests: it is slower than the CPU
-//! at any size of batch.
+//! [`Solver`] chooses between CPU and GPU by measurement. Software adapters are useful only for tests: they are slower than the CPU for any
+//! batch size.
 
 mod choice;
 mod clock;

@@ -1,4 +1,4 @@
-//! Errors of meshing: each names the fault and how to mend it.
+//! Errors of meshing. Each message says what is wrong and how to fix it.
 
 use thiserror::Error;
 
@@ -21,7 +21,7 @@ pub enum TetError {
     TooFine {
         /// Side of a lattice cube, m.
         cell: f64,
-        /// Points it asks for.
+        /// Number of lattice points.
         points: f64,
         /// The most that are allowed.
         limit: f64,
@@ -41,7 +41,7 @@ pub enum TetError {
     TooThin {
         /// Thickness of the thin walls, m.
         wall: f64,
-        /// Tetrahedra they need.
+        /// Number of tetrahedra that they need.
         needed: usize,
         /// The most that are allowed.
         limit: usize,
@@ -56,7 +56,7 @@ pub enum TetError {
         /// Share of the largest in the volume, per cent.
         share: f64,
     },
-    /// Parts that touch along edges only, in ever new places.
+    /// Parts joined only along edges, which repeated repairs did not resolve.
     #[error("parts of the body are joined only along edges; request slightly more or fewer tetrahedra")]
     Pinched,
     /// A tetrahedron flatter than promised.
@@ -66,10 +66,10 @@ pub enum TetError {
     Sliver {
         /// Smallest dihedral angle, degrees.
         angle: f64,
-        /// Smallest angle that is promised, degrees.
+        /// Smallest allowed angle, degrees.
         limit: f64,
     },
-    /// The observer of the work asked it to stop.
+    /// The caller cancelled the meshing.
     #[error("meshing was cancelled")]
     Cancelled,
 }

@@ -1,38 +1,37 @@
-//! A mesh as a file holds it.
+//! Unmodified meshes from files.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
 
 use glam::{DVec3, Vec2, Vec3};
 
-/// Triangles with whatever attributes the file gave them, untouched.
+/// Triangles with the attributes from the file, unmodified.
 ///
-/// Vertices are as in the file: split along texture seams, perhaps loose, perhaps doubled. The repaired, solid
-/// geometry is a [`Surface`](crate::Surface).
+/// Vertices may be split along texture seams, unused or duplicate, as in the file. The repaired geometry is a [`Surface`](crate::Surface).
 #[derive(Clone, Debug, Default)]
 pub struct InputMesh {
     /// Vertex positions, in the file's unit.
     pub positions: Vec<DVec3>,
-    /// One unit normal per vertex, or none at all.
+    /// One unit normal per vertex, or empty.
     pub normals: Vec<Vec3>,
-    /// One texture coordinate per vertex (as in glTF: origin at the top left of the picture, v down), or none at all.
+    /// One texture coordinate per vertex, or empty; as in glTF, with the origin at the top left and v down.
     pub uvs: Vec<Vec2>,
-    /// One colour per vertex, red, green, blue and opacity, each 0..=1 and as in the file (linear in glTF, as a rule sRGB
-    /// elsewhere), or none at all. Vertices on a seam have their own on either side.
+    /// One colour per vertex, or empty: red, green, blue and opacity, each 0..=1 and as in the file (linear in glTF, usually sRGB in other
+    /// formats). Vertices on a seam have a colour on each side.
     pub colors: Vec<[f32; 4]>,
     /// Vertex indices of each triangle.
     pub triangles: Vec<[u32; 3]>,
-    /// Index into [`InputMesh::materials`] of each triangle, or empty when the file names no material.
+    /// Index into [`InputMesh::materials`] of each triangle, or empty if the file has no materials.
     pub material_of_triangle: Vec<u32>,
-    /// Materials for drawing.
+    /// Materials for rendering.
     pub materials: Vec<InputMaterial>,
-    /// Parts that the file names besides: groups and objects of an OBJ, nodes and meshes of a glTF, solids of a text STL.
+    /// Other named parts: groups and objects of an OBJ, nodes and meshes of a glTF, solids of a text STL.
     pub groups: Vec<InputGroup>,
-    /// Faces of fewer than three corners, which a reader has passed over.
+    /// Number of skipped faces with fewer than three vertices.
     pub skipped_faces: usize,
 }
 
-/// A run of triangles that a file gives a name; a name may have several runs, and a triangle several names.
+/// A named range of triangles; a name may have several ranges, and a triangle several names.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct InputGroup {
     /// Name in the file.
@@ -42,8 +41,8 @@ pub struct InputGroup {
 }
 
 impl InputMesh {
-    /// Triangles by the names of groups and materials, in the order of the names; groups and materials of one name are one part.
-    /// Names that no triangle has are left out.
+    /// Returns the triangles of each group and material, sorted by name. Groups and materials with the same name are one part; names without
+    /// triangles are omitted.
     #[must_use]
     pub fn named_parts(&self) -> Vec<(String, Vec<u32>)> {
         let mut parts: BTreeMap<&str, Vec<u32>> = BTreeMap::new();
@@ -71,7 +70,7 @@ impl InputMesh {
     }
 }
 
-/// A material for drawing, as far as any viewer understands it.
+/// A material for rendering.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InputMaterial {
     /// Name in the file.

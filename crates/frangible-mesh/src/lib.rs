@@ -1,10 +1,9 @@
-//! Any surface or signed distance in, sound tetrahedra out.
+//! Tetrahedral meshing of arbitrary surfaces and signed distance functions.
 //!
-//! A mesh file becomes an [`InputMesh`] (the drawn mesh, kept as it is), is repaired to a [`Surface`] (of the
-//! solid), becomes a [`Solid`] by its generalised winding number, and is filled with tetrahedra.
+//! A mesh file is read as an [`InputMesh`] (kept unchanged for rendering), repaired to a [`Surface`], converted to a [`Solid`] by its generalised
+//! winding number, and filled with tetrahedra.
 //!
-//! The mesher is a crate of its own because it needs no finite elements: its tests and fuzz targets build in seconds, and it is
-//! of use without the rest.
+//! A separate crate, because it needs no finite elements: its tests and fuzz targets build in seconds, and it is useful on its own.
 
 pub mod distance;
 mod error;

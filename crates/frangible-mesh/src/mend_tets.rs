@@ -1,6 +1,6 @@
-//! Mending of tetrahedra from a file: a body, or the reason why they are none.
+//! Repair of tetrahedra from a file.
 //!
-//! Imported tetrahedra are mended or refused by element number and are never meshed anew, since whoever brings them chose them.
+//! Imported tetrahedra are repaired, or rejected with the number of the element, but never remeshed, because the user chose them.
 
 use std::fmt;
 
@@ -23,7 +23,7 @@ const STRAIGHT: f64 = 1e-4;
 /// Smaller pieces than the rest of this share are dropped, as the mesher does.
 const MAIN_PIECE: f64 = 0.9;
 
-/// Error of taking in tetrahedra from a file. Elements are named by their numbers in the file.
+/// Error of importing tetrahedra from a file. Element numbers are those of the file.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum TetInputError {
@@ -64,7 +64,7 @@ pub enum TetInputError {
         /// Its number in the file.
         element: u64,
     },
-    /// Parts that touch along edges only.
+    /// Parts joined only along edges.
     #[error("parts of the body are joined only along {edges} edges; merge or separate them there")]
     Pinched {
         /// Number of such edges.
@@ -77,7 +77,7 @@ pub enum TetInputError {
     Curved {
         /// Its number in the file.
         element: u64,
-        /// Distance from the middle, per cent of the edge.
+        /// Distance from the midpoint, per cent of the edge length.
         share: f64,
     },
     /// Several bodies.
@@ -92,27 +92,27 @@ pub enum TetInputError {
     },
 }
 
-/// Counts of what was mended.
+/// Statistics of the repairs.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct TetMend {
-    /// Tetrahedra that were turned inside out.
+    /// Inverted tetrahedra, which were flipped.
     pub turned: usize,
     /// Tetrahedra without volume that were dropped.
     pub flat: usize,
-    /// Tetrahedra without volume, or folded, that were given one by a move of a node.
+    /// Flat or folded tetrahedra, which were repaired by moving a node.
     pub lifted: usize,
-    /// Farthest of these moves, share of the longest edge.
+    /// Largest of these displacements, as a share of the longest edge.
     pub moved: f64,
-    /// Nodes at exactly the same place as another.
+    /// Duplicate nodes, at exactly the same position as another.
     pub welded: usize,
-    /// Nodes that no tetrahedron used.
+    /// Unused nodes.
     pub unused: usize,
-    /// Nodes given twice because parts of the body touch at them alone.
+    /// Nodes that were duplicated because parts of the body touched only there.
     pub parted: usize,
-    /// Small loose pieces dropped.
+    /// Small disconnected pieces, which were dropped.
     pub dropped: usize,
-    /// Farthest middle node from the middle of its edge, share of its length; 0 for straight edges.
+    /// Largest distance of a mid-edge node from the midpoint of its edge, as a share of the edge length; 0 for straight edges.
     pub curved: f64,
 }
 
@@ -152,7 +152,7 @@ pub struct NodeGroup {
     pub name: String,
     /// 2: a surface; 3: a volume.
     pub dimension: u8,
-    /// Its nodes, rising.
+    /// Its nodes, ascending.
     pub nodes: Vec<u32>,
 }
 
@@ -161,18 +161,18 @@ pub struct NodeGroup {
 pub struct MendedTets {
     /// One face-connected piece, right-handed; the tetrahedra in the order of the file.
     pub body: TetBody,
-    /// True if the file's elements were of second order.
+    /// True if the elements of the file were quadratic.
     pub quadratic: bool,
-    /// Named parts that are left, as nodes of the body.
+    /// Named parts, as nodes of the body.
     pub groups: Vec<NodeGroup>,
     /// Repairs that were made.
     pub mend: TetMend,
 }
 
-/// Turns, welds, drops and checks.
+/// Repairs and checks tetrahedra: flips inverted ones, merges duplicate nodes, drops flat ones and small pieces.
 ///
 /// # Errors
-/// Tetrahedra that cannot be meant as one body: see [`TetInputError`].
+/// Tetrahedra that do not form one body: see [`TetInputError`].
 pub fn mend_tets(input: &TetInput) -> Result<MendedTets, TetInputError> {
     check(input)?;
     let mut mend = TetMend {

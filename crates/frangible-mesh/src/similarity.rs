@@ -1,27 +1,26 @@
-//! Bodies moved and resized as a whole.
+//! Uniform scaling and translation.
 
 use glam::DVec3;
 
 use crate::{InputMesh, Surface};
 
-/// `p ↦ scale · p + shift`: applied to a drawn mesh and its solid surface alike, it keeps the two aligned.
+/// The transform `p ↦ scale · p + shift`. Applied to a render mesh and its solid surface alike, it keeps the two aligned.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Similarity {
     /// Factor of all lengths, above 0.
     pub scale: f64,
-    /// Added after scaling, m.
+    /// Translation after scaling, m.
     pub shift: DVec3,
 }
 
 impl Similarity {
-    /// Leaves everything where it is.
+    /// The identity transform.
     pub const IDENTITY: Self = Self {
         scale: 1.0,
         shift: DVec3::ZERO,
     };
 
-    /// Scales the box `[low, high]` about its centre to the longest side `longest`, m. A box without extent
-    /// is left as it is.
+    /// Scales the box `[low, high]` about its centre so that its longest side is `longest`, m. A box without extent is not changed.
     #[must_use]
     pub fn resizing([low, high]: [DVec3; 2], longest: f64) -> Self {
         let scale = longest / (high - low).max_element();
@@ -41,14 +40,14 @@ impl Similarity {
 }
 
 impl Surface {
-    /// Moves and scales all vertices.
+    /// Transforms all vertices.
     pub fn transform(&mut self, by: &Similarity) {
         for p in &mut self.positions {
             *p = by.apply(*p);
         }
     }
 
-    /// Scales the bounding box about its centre to the longest side `longest`, m. Returns the similarity to apply to the
+    /// Scales the surface about the centre of its bounding box so that its longest side is `longest`, m. Returns the transform to apply to the
     /// [`InputMesh`].
     pub fn resize(&mut self, longest: f64) -> Similarity {
         let similarity = Similarity::resizing(self.bounds(), longest);
@@ -63,7 +62,7 @@ impl Surface {
 }
 
 impl InputMesh {
-    /// Moves and scales all vertices.
+    /// Transforms all vertices.
     pub fn transform(&mut self, by: &Similarity) {
         for p in &mut self.positions {
             *p = by.apply(*p);

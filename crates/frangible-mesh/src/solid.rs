@@ -1,8 +1,8 @@
-//! Queries of the mesher to a body: inside or outside, and distance to the surface.
+//! Solids: inside tests and distance to the surface.
 
 use glam::DVec3;
 
-/// The surface's point closest to some point.
+/// The closest point on a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfacePoint {
     /// Position, m.
@@ -11,7 +11,7 @@ pub struct SurfacePoint {
     pub normal: DVec3,
 }
 
-/// A body given by its inside. Implemented by mesh surfaces (winding number) and by signed distances.
+/// A solid, defined by an inside test. Implemented for mesh surfaces (winding number) and signed distance functions.
 pub trait Solid: Send + Sync {
     /// Lowest and highest corner of a box that holds the body, m.
     fn bounds(&self) -> [DVec3; 2];

@@ -18,7 +18,7 @@ impl Surface {
         self.triangles[t].map(|v| self.positions[v as usize])
     }
 
-    /// Lowest and highest corner of the box that holds all vertices, m.
+    /// Lowest and highest corner of the bounding box of all vertices, m.
     #[must_use]
     pub fn bounds(&self) -> [DVec3; 2] {
         let everything = [DVec3::INFINITY, DVec3::NEG_INFINITY];

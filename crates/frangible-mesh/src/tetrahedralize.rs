@@ -1,4 +1,4 @@
-//! The mesher's front door: a solid in, sound tetrahedra out.
+//! The main entry point of the mesher: a solid in, tetrahedra out.
 
 use std::fmt;
 use std::ops::ControlFlow;
@@ -15,10 +15,10 @@ use crate::tets::pieces::keep_largest;
 use crate::tets::{Draft, TetBody};
 use crate::watch::Watch;
 
-/// Smallest dihedral angle that is promised, degrees.
+/// Guaranteed smallest dihedral angle, degrees.
 pub const SMALLEST_ANGLE: f64 = 10.0;
 
-/// Lattice cells that fit into a wall when it is meshed soundly; measured, see the tests.
+/// Number of lattice cells per wall thickness needed for a sound mesh; measured, see the tests.
 pub const CELLS_PER_WALL: f64 = 1.5;
 
 /// Tetrahedra with a smaller angle than this, degrees, are worked on.
@@ -39,9 +39,9 @@ const TETS_PER_WALL_CUBE: f64 = 14.3;
 /// Number of tetrahedra, or their size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Resolution {
-    /// About this many tetrahedra, within 15 %; more when thin walls or a volume off by more than 3 % ask for them.
+    /// About this many tetrahedra, within 15 %; more if thin walls or a volume error above 3 % require them.
     Tets(usize),
-    /// Lattice cubes of this side, m, about a dozen tetrahedra each.
+    /// Lattice cubes with this side length, m, of about a dozen tetrahedra each.
     Cell(f64),
 }
 
@@ -49,17 +49,17 @@ pub enum Resolution {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct TetOptions {
-    /// Default 40 000 tetrahedra.
+    /// Number or size of the tetrahedra. Default 40 000 tetrahedra.
     pub resolution: Resolution,
-    /// Most tetrahedra allowed, default 400 000.
+    /// Largest number of tetrahedra, default 400 000.
     pub most: usize,
     /// Thickness of the thinnest walls, m, if known: the lattice is refined until they hold [`CELLS_PER_WALL`] cells.
     pub wall: Option<f64>,
-    /// Moves surface vertices onto sharp edges and corners, default true.
+    /// Snaps surface vertices to sharp edges and corners, default true.
     pub snap: bool,
-    /// Seed of the irregularity that takes the lattice out of the mesh; `None` (default): leave the lattice.
+    /// Random seed for making the mesh irregular; `None` (default): keep the lattice.
     pub irregular: Option<u64>,
-    /// Compares the volume with the one counted on a grid four times as fine, default true.
+    /// Compares the volume with that on a grid four times as fine, default true.
     pub check_volume: bool,
 }
 
@@ -76,7 +76,7 @@ impl Default for TetOptions {
     }
 }
 
-/// Figures of a mesh.
+/// Report of a meshing.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct TetReport {
@@ -92,15 +92,15 @@ pub struct TetReport {
     pub largest_angle: f64,
     /// Volume of the tetrahedra, m³.
     pub volume: f64,
-    /// Volume of the solid, counted on a grid four times as fine as the lattice, m³.
+    /// Volume of the solid, measured on a grid four times as fine as the lattice, m³.
     pub counted_volume: Option<f64>,
-    /// Separate pieces found; only the largest was kept.
+    /// Number of separate pieces; only the largest was kept.
     pub pieces: usize,
     /// Share of the volume that was kept.
     pub kept: f64,
-    /// Sharp features met and not reproduced.
+    /// Sharp features, found and not reproduced.
     pub features: Features,
-    /// Tetrahedra removed where parts touched along an edge only.
+    /// Number of tetrahedra removed where parts were joined only along an edge.
     pub pinches: usize,
 }
 
@@ -144,7 +144,7 @@ impl fmt::Display for TetReport {
 /// it, its tetrahedra cut along it. Then sharp features are snapped and bad angles improved.
 ///
 /// # Errors
-/// A number that cannot be used, walls too thin for the tetrahedra allowed, or a body in several pieces.
+/// An invalid number, walls too thin for the allowed number of tetrahedra, or a body in several pieces.
 pub fn tetrahedralize(
     solid: &dyn Solid,
     options: &TetOptions,
@@ -152,8 +152,7 @@ pub fn tetrahedralize(
     tetrahedralize_watched(solid, options, &mut |_| ControlFlow::Continue(()))
 }
 
-/// [`tetrahedralize`] that tells the share of the work done, rising from 0 to 1, and stops on
-/// [`ControlFlow::Break`].
+/// Like [`tetrahedralize`], with a callback that receives the completed share, from 0 to 1, and can cancel with [`ControlFlow::Break`].
 ///
 /// # Errors
 /// [`TetError::Cancelled`] when stopped, and those of [`tetrahedralize`].

@@ -1,4 +1,4 @@
-//! Files that are either whole or absent.
+//! Atomic writing of files.
 
 use std::ffi::OsString;
 use std::fs::{self, File};
@@ -7,10 +7,10 @@ use std::path::Path;
 
 use crate::WriteError;
 
-/// Writes a file so that its final name never holds half of it.
+/// Writes a file atomically: its final name never refers to a partial file.
 ///
-/// The bytes go to a sibling (`NAME.PROCESS.part`), which then takes the final name; both lie in one folder, so the renaming is one step of the file
-/// system. On failure the sibling is removed, and a former file under the final name is left as it was.
+/// The bytes are written to `NAME.PROCESS.part` in the same folder, which is then renamed in one file-system operation. On failure that file is
+/// removed, and an existing file with the final name is unchanged.
 ///
 /// # Errors
 ///

@@ -1,10 +1,10 @@
-//! Unsound recordings, and files that cannot be written.
+//! Errors of invalid recordings and of writing files.
 
 use std::path::PathBuf;
 
 use thiserror::Error;
 
-/// Error that keeps a recording from being written or drawn; each message says how to mend it.
+/// Error of an invalid recording. Each message says how to fix it.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum RecordingError {
@@ -56,7 +56,7 @@ pub enum RecordingError {
     BadView,
 }
 
-/// The file system refused.
+/// The file cannot be written.
 #[derive(Debug, Error)]
 #[error("cannot write {}: {source}; check that the folder exists, is writable and has room", path.display())]
 pub struct WriteError {

@@ -1,14 +1,11 @@
-//! Record of a scene, as plain data.
+//! Recordings of scenes, as plain data.
 //!
-//! A [`Recording`] holds meshes, one rigid node per shard with a pose per
-//! frame, materials, a camera and the frames worth looking at; besides, each
-//! blow with its force over time and its cracks, and where pieces touched, for
-//! films between two frames and for sound. It knows neither the solver nor the
-//! renderer; both meet in it.
+//! A [`Recording`] contains meshes, one rigid node per piece with a pose per frame, materials, a camera and the key frames; also each blow with
+//! its force history and cracks, and the contacts of pieces, for slow-motion films and for sound. It is the interface between the solver and
+//! the renderers, and depends on neither.
 //!
-//! [`write_atomically`] puts bytes on disk so that no reader ever finds half a
-//! file under the final name; [`make_folder`] and [`try_file`] prove beforehand
-//! that there is a place for it.
+//! [`write_atomically`] writes a file so that readers never see a partial one; [`make_folder`] and [`try_file`] check beforehand that it can be
+//! written.
 //!
 //! The world is right-handed, y up, in metres, kilograms and seconds, as in
 //! glTF.

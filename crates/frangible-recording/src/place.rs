@@ -1,13 +1,13 @@
-//! Places to write to, tried before minutes are spent.
+//! Checks that outputs can be written, before long computations.
 
 use std::fs;
 use std::path::Path;
 
-/// Makes the output folder; proves that it can be written, and that no folder has the name of a file to write. Returns true if the folder was there
-/// before. Messages name the command line's `option` that chooses another folder.
+/// Creates the output folder, and checks that it is writable and that no folder has the name of an output file. Returns true if the folder already
+/// existed. `option` is the command-line option for another folder, for the messages.
 ///
 /// # Errors
-/// A sentence for the user of the command line.
+/// A message for the user of the command line.
 pub fn make_folder(folder: &Path, names: &[String], option: &str) -> Result<bool, String> {
     let was_there = folder.exists();
     let wrong = |e: std::io::Error| {
@@ -40,10 +40,10 @@ pub fn make_folder(folder: &Path, names: &[String], option: &str) -> Result<bool
     Ok(was_there)
 }
 
-/// Proves that a file of this name can be written where it is to lie.
+/// Checks that a file with this path can be written.
 ///
 /// # Errors
-/// A sentence for the user of the command line.
+/// A message for the user of the command line.
 pub fn try_file(path: &Path) -> Result<(), String> {
     if path.is_dir() {
         return Err(format!(

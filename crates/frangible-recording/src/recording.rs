@@ -1,12 +1,12 @@
-//! Record of a scene, as plain data.
+//! Recording of a scene, as plain data.
 //!
-//! Pictures, sound and files share this one description, and none of them needs the physics.
+//! Pictures, sound and files are made from this description, without the physics.
 
 use std::ops::Range;
 
 use glam::{Quat, Vec3};
 
-/// Record of a scene's motion and breaks. Pictures, films and sound are made from it.
+/// Recording of a scene's motion and breaks, from which pictures, films and sound are made.
 ///
 /// | contents | field | of | time |
 /// |---|---|---|---|
@@ -33,42 +33,42 @@ pub struct Recording {
     pub surfaces: Vec<SurfaceMaterial>,
     /// The shapes that nodes refer to by index.
     pub meshes: Vec<RecordedMesh>,
-    /// The rigid things in the scene.
+    /// The rigid objects of the scene.
     pub nodes: Vec<RecordedNode>,
     /// A level floor, if the scene has one.
     pub floor: Option<Floor>,
-    /// The view to look from.
+    /// The camera.
     pub camera: View,
-    /// The views of its own that each of the [four moments](Recording::labelled_moments) is best seen from, in their order.
+    /// Separate views for the [four moments](Recording::labelled_moments), in their order.
     pub views: Option<[View; 4]>,
-    /// The frames worth a picture.
+    /// The key frames for pictures.
     pub moments: Moments,
-    /// Blows on nodes that were hard enough to be analysed for a break, in the order of time.
+    /// Blows that were tested for fracture, in the order of time.
     pub blows: Vec<RecordedBlow>,
-    /// Other contacts: pieces with each other and with whatever they fell on, in the order of time.
+    /// Other contacts of pieces, in the order of time.
     pub touches: Vec<RecordedTouch>,
     /// Sliding contacts, in the order of time.
     pub slides: Vec<RecordedSlide>,
 }
 
-/// A blow on a node: the forces on it, and the cracks that ran. The film of a break and its sound are made from it.
+/// A blow on a node, with its forces and cracks, for films and sound.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RecordedBlow {
     /// The node that was hit.
     pub node: usize,
-    /// Time at which the blow began, s after the first frame.
+    /// Start time of the blow, s after the first frame.
     pub time: f64,
-    /// The nodes of its pieces; empty where it held.
+    /// The nodes of its pieces; empty if it held.
     pub pieces: Range<usize>,
-    /// The force at each place where something pushed.
+    /// The force history of each contact.
     pub pulses: Vec<Pulse>,
-    /// The new cracks, or parts that old ones grew by.
+    /// The new cracks, and extensions of old cracks.
     pub cracks: Vec<RecordedCrack>,
-    /// Energy that the cracks took, J.
+    /// Energy spent on the cracks, J.
     pub fracture_energy: f64,
 }
 
-/// A force over time at a place of a node.
+/// Force history at a point of a node.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pulse {
     /// Point of application, m, in the frame of the node.
@@ -94,49 +94,49 @@ impl Pulse {
 /// Path and times of a crack.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RecordedCrack {
-    /// Places of the crack in the order of its growth, m, in the frame of the node.
+    /// Points of the crack in the order of growth, m, in the frame of the node.
     pub places: Vec<Vec3>,
-    /// Time at which the crack was at each place, s after the blow began.
+    /// Time at which the crack reached each point, s after the start of the blow.
     pub times: Vec<f64>,
 }
 
-/// Two things that came together, or a thing and a fixed one.
+/// A collision of two objects, or of an object with a fixed one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RecordedTouch {
     /// Time, s after the first frame.
     pub time: f64,
-    /// The node, and the other one unless it is the floor.
+    /// The node, and the other node; `None` for the floor.
     pub nodes: (usize, Option<usize>),
     /// Point of contact, m.
     pub point: Vec3,
     /// Unit direction of the push on the first node.
     pub normal: Vec3,
-    /// Impulse along it, N·s. Part of it may be passed on from things that lie on top.
+    /// Impulse along the normal, N·s. Part of it may come from objects on top.
     pub impulse: f64,
-    /// Speed at which they approached along it, m/s.
+    /// Approach speed along the normal, m/s.
     pub speed: f64,
 }
 
-/// Two things that slide along each other for a moment, or roll on each other, or a thing along or on a fixed one.
+/// Sliding or rolling contact of two objects, or of an object with a fixed one, during a short interval.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RecordedSlide {
-    /// Time of its beginning, s after the first frame.
+    /// Start time, s after the first frame.
     pub time: f64,
-    /// Duration for which it is taken to go on as it began, s.
+    /// Duration of the interval, during which speed and power are taken as constant, s.
     pub duration: f64,
-    /// The node, and the other one unless it is the floor.
+    /// The node, and the other node; `None` for the floor.
     pub nodes: (usize, Option<usize>),
     /// Point of contact, m.
     pub point: Vec3,
     /// Unit direction of the push on the first node, across the surfaces.
     pub normal: Vec3,
-    /// Sliding speed; of rolling things, the speed at which the contact travels over both, m/s.
+    /// Sliding speed, or for rolling the speed at which the contact moves over both surfaces, m/s.
     pub speed: f64,
-    /// Power that friction, or the resistance to rolling, takes from their motion, W.
+    /// Power dissipated by friction or rolling resistance, W.
     pub power: f64,
 }
 
-/// Look of a surface (metallic–roughness, as in glTF).
+/// Appearance of a surface (metallic–roughness, as in glTF).
 #[derive(Clone, Debug, PartialEq)]
 pub struct SurfaceMaterial {
     /// Name in viewers.
@@ -153,18 +153,18 @@ pub struct SurfaceMaterial {
     pub ior: f32,
     /// If true, back faces are drawn too.
     pub double_sided: bool,
-    /// Linear red, green, blue that is left of white light after [`attenuation_distance`](Self::attenuation_distance) in the body
-    /// behind the surface, each above 0 and at most 1.
+    /// Colour of white light after the [`attenuation_distance`](Self::attenuation_distance) in the body behind the surface: linear red, green and
+    /// blue, each above 0 and at most 1.
     pub attenuation_color: [f32; 3],
-    /// Distance in the body at which light has that colour, m; infinite where nothing is absorbed.
+    /// Distance in the body at which light has that colour, m; infinite without absorption.
     pub attenuation_distance: f32,
-    /// True if the body goes on behind the surface: a crack that separates nothing, with air in it.
+    /// True if the body continues behind the surface: an air-filled crack inside the body.
     pub thin: bool,
-    /// Detail of the surface from close by.
+    /// Fine detail of the surface.
     pub grain: Grain,
 }
 
-/// Detail of a surface from close by, where a renderer draws it.
+/// Fine detail of a surface, for renderers that support it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Grain {
     /// One colour, smooth.
@@ -224,7 +224,7 @@ pub struct MeshPart {
     pub indices: Vec<u32>,
 }
 
-/// A rigid thing: a mesh, where it is in each frame, and when it exists.
+/// A rigid object: a mesh, its pose in each frame, and the frames in which it exists.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RecordedNode {
     /// Name in viewers.
@@ -233,9 +233,9 @@ pub struct RecordedNode {
     pub mesh: usize,
     /// One pose per frame, or exactly one for a node that never moves.
     pub poses: Vec<Pose>,
-    /// The frames in which it can be seen; a shard appears when its parent breaks.
+    /// The frames in which it is visible; a piece appears when its parent breaks.
     pub visible: Range<usize>,
-    /// Numbers kept beside the node in the file, such as `mass_kg`, `volume_m3`.
+    /// Extra numbers stored with the node in the file, such as `mass_kg` or `volume_m3`.
     pub keep_extras: Vec<(String, f64)>,
 }
 
@@ -297,11 +297,11 @@ pub struct Moments {
     pub before: usize,
     /// The first frame with a crack.
     pub first_crack: usize,
-    /// Shards on their way.
+    /// Pieces in flight.
     pub just_after: usize,
-    /// The end.
+    /// The end of the recording.
     pub at_rest: usize,
-    /// True if something still moves there.
+    /// True if objects still move at the end.
     pub moves_on: bool,
 }
 
@@ -335,7 +335,7 @@ impl Recording {
         ]
     }
 
-    /// The view that a frame is best seen from: that of the latest moment that it comes at or after.
+    /// The view for a frame: that of the latest moment at or before it.
     #[must_use]
     pub fn view_of(&self, frame: usize) -> View {
         let Some(views) = self.views else {

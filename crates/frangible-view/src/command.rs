@@ -1,4 +1,4 @@
-//! Commands that a person or a script can give.
+//! Commands of the viewer.
 
 use std::path::PathBuf;
 
@@ -7,107 +7,107 @@ use frangible_compare::Method;
 
 use crate::error::{ViewError, within};
 
-/// One thing to do. Mouse, keys, panels and scripts all give these; [`Command::parse`] reads one, `to_string` writes it.
+/// A command of the viewer, from mouse, keys, panels or scripts. [`Command::parse`] reads one, `to_string` writes it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
     /// Load a built-in scene.
     Scene(String),
     /// Load a scene file, a mesh or a baked body.
     Open(PathBuf),
-    /// Give up the bake that runs, or the comparison of methods.
+    /// Cancel the running bake or comparison of methods.
     CancelBake,
-    /// The scene from its beginning, with the knobs as they are.
+    /// Restart the scene with the current knobs.
     Reset,
-    /// Stop the clock.
+    /// Pause the simulation.
     Pause,
-    /// Let the clock run.
+    /// Continue the simulation.
     Run,
     /// Take this many steps.
     Step(u32),
-    /// Take the steps of this many pictures of 1/60 s; a window draws each.
+    /// Advance by this many frames of 1/60 s; a window draws each.
     Frames(u32),
-    /// Speed of simulated time: 1 is as in life, 0.001 a thousandth of it.
+    /// Speed of simulated time relative to real time, such as 1 or 0.001.
     SlowMotion(f64),
     /// Volume, a share of the loudspeaker's range, 0..=1.
     Volume(f64),
-    /// Sound, or silence.
+    /// Turn the sound on or off.
     Sound(bool),
-    /// Ball to throw from now on; a click throws it.
+    /// Set the ball that a click throws.
     Ball(BallSpec),
-    /// Hammer to swing from now on; a click swings it.
+    /// Set the hammer that a click swings.
     Hammer(HammerSpec),
-    /// Tool that a click uses.
+    /// Choose the tool that a click uses.
     Tool(Tool),
     /// Throw a ball from a point through another, m.
     Throw {
         /// Starting point.
         from: Vec3,
-        /// Point that its centre is aimed at.
+        /// Aim point of its centre.
         through: Vec3,
     },
-    /// Swing the hammer onto the thing that a ray meets.
+    /// Swing the hammer at the object that a ray hits.
     Swing {
         /// Origin of the ray, m.
         from: Vec3,
-        /// A point it goes through.
+        /// A point on the ray, m.
         through: Vec3,
     },
-    /// Take hold of the thing that a ray meets.
+    /// Grab the object that a ray hits.
     Grab {
         /// Origin of the ray, m.
         from: Vec3,
-        /// A point it goes through.
+        /// A point on the ray, m.
         through: Vec3,
     },
-    /// Pull the held thing to the point of this ray that is as far off as it was taken.
+    /// Move the grabbed object to the point of this ray at the distance at which it was grabbed.
     Pull {
         /// Origin of the ray, m.
         from: Vec3,
-        /// A point it goes through.
+        /// A point on the ray, m.
         through: Vec3,
     },
-    /// Let go of the held thing; it flies on.
+    /// Release the grabbed object with its velocity.
     LetGo,
-    /// The scene again, its bodies dropped from this height, m.
+    /// Restart the scene with its bodies dropped from this height, m.
     Drop(f64),
-    /// Back to just before the last break.
+    /// Go back to just before the last break.
     Undo,
-    /// Choose the subject to look at.
+    /// Choose the displayed subject.
     Look(Subject),
-    /// Choose a moment of the contact: its share of the motion's time, 0..=1.
+    /// Choose a time of the contact, as a share of the motion's duration, 0..=1.
     Scrub(f64),
-    /// Factor by which the deformation is enlarged in the picture.
+    /// Set the magnification of the displayed deformation.
     Exaggerate(f64),
-    /// Spread of the drawn pieces, as a share of their distance from their parent's middle: 0 leaves them in place.
+    /// Set the spread of the drawn pieces, as a share of their distance from their parent's centre; 0 leaves them in place.
     Explode(f64),
-    /// Show a mark, or hide it.
+    /// Show or hide a mark.
     Show(Mark, bool),
-    /// Choose the vibration mode to look at, from 1.
+    /// Choose the displayed vibration mode, from 1.
     Mode(usize),
-    /// Select the thing that a ray meets, or nothing.
+    /// Select the object that a ray hits, or nothing.
     Select {
         /// Origin of the ray, m.
         from: Vec3,
-        /// A point it goes through.
+        /// A point on the ray, m.
         through: Vec3,
     },
-    /// Turn a knob; the number in the knob's own unit.
+    /// Set a knob to a value in its own unit.
     Knob(String, f64),
-    /// Turn a knob back.
+    /// Reset a knob.
     ResetKnob(String),
-    /// Turn all knobs back.
+    /// Reset all knobs.
     ResetKnobs,
-    /// Another material for all bodies.
+    /// Set the material of all bodies.
     Material(String),
-    /// The last impact again on the intact body, with the knobs as they are; both are shown side by side.
+    /// Repeat the last impact on the intact body with the current knobs, and show both outcomes side by side.
     HitAgain,
-    /// The last impact by these methods, up to four side by side; none: those that were shown, or the first four.
+    /// Compare these methods on the last impact, up to four side by side; an empty list means those shown before, or the first four.
     CompareMethods(Vec<Method>),
     /// Write a file.
     Save(Target, PathBuf),
     /// Draw a film of the last seconds off-screen, or path-trace a still, and write it.
     Film(FilmKind, PathBuf, FilmOptions),
-    /// Give up the film that is being made.
+    /// Cancel the film that is being made.
     CancelSave,
     /// Set the view of films and stills, and of a window's camera.
     LookFrom {
@@ -122,27 +122,27 @@ pub enum Command {
     Orbit(f32, f32),
     /// Move the view's target, shares of the picture's height to the right and up.
     Pan(f32, f32),
-    /// Go nearer by this factor, or farther below 1.
+    /// Zoom in by this factor, or out if it is below 1.
     Zoom(f32),
-    /// Look at the scene as in the beginning.
+    /// Reset the camera.
     Home,
-    /// Throw, or swing, through this place of the window, shares of its width and height from the upper left.
+    /// Throw or swing at this position of the window, as shares of its width and height from the upper left.
     Click(f32, f32),
-    /// Select the thing at this place of the window.
+    /// Select the object at this position of the window.
     Pick(f32, f32),
-    /// Take hold of the thing at this place of the window.
+    /// Grab the object at this position of the window.
     GrabAt(f32, f32),
-    /// Pull the held thing to this place of the window.
+    /// Move the grabbed object to this position of the window.
     PullTo(f32, f32),
     /// Open or close a panel.
     Panel(String, bool),
-    /// Dark or light.
+    /// Choose the dark or light theme.
     Dark(bool),
     /// Close the window.
     Quit,
 }
 
-/// Subject to look at.
+/// Subject of the display.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Subject {
     /// The scene.
@@ -154,7 +154,7 @@ pub enum Subject {
     Cracks,
     /// A vibration mode of the body that was hit last.
     Modes,
-    /// The last impact, and the same impact with the knobs as they are.
+    /// The last impact, and the same impact with the current knobs.
     Compare,
     /// The last impact by several methods.
     Methods,
@@ -173,9 +173,9 @@ impl Subject {
 pub enum Mark {
     /// Edges instead of faces.
     Wireframe,
-    /// The skin of the fine mesh that carries the cracks.
+    /// Surface of the fracture mesh.
     FractureMesh,
-    /// The skin of the coarse mesh that carries the modes.
+    /// Surface of the analysis mesh.
     AnalysisMesh,
     /// Weak points, where cracks may start.
     WeakPoints,
@@ -188,11 +188,11 @@ pub enum Mark {
 /// Files that can be written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Target {
-    /// The scene with the knobs as they are, TOML.
+    /// The scene with the current knobs, TOML.
     Scene,
     /// The current scene, GLB.
     Glb,
-    /// All commands since the scene was loaded, as a script that does the same again.
+    /// All commands since the scene was loaded, as a script.
     Script,
     /// The numbers of the last contact, JSON.
     Report,
@@ -209,20 +209,20 @@ pub enum FilmKind {
     Gif,
     /// The last seconds, a folder of PNG.
     Frames,
-    /// The last seconds, MP4; takes `ffmpeg`.
+    /// The last seconds, MP4; requires `ffmpeg`.
     Mp4,
 }
 
 /// Settings of a film.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FilmOptions {
-    /// Length of the film, s, counted back from now as it was seen: in slow motion a step takes long. At most 20.
+    /// Length of the film in displayed time, s, up to now; at most 20.
     pub seconds: f64,
     /// Pictures per second, 1/s.
     pub rate: f64,
     /// Width and height, pixels.
     pub size: [u32; 2],
-    /// Paths per pixel of a still; its noise falls with the square root of this number.
+    /// Paths per pixel of a still; noise falls with the square root of this number.
     pub samples: u32,
 }
 

@@ -1,4 +1,4 @@
-//! The numbers of the model that may be turned, each with its unit, its range and the equation it enters.
+//! Adjustable parameters of the model, each with its unit, its range and its equation.
 
 mod table;
 
@@ -8,12 +8,12 @@ use frangible_scenes::{BakedBody, BodySource, Scene};
 
 pub use table::KNOBS;
 
-/// Settings that the knobs turn.
+/// Settings changed by the knobs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
     /// Material of the body.
     pub material: Material,
-    /// Switches and numbers of the fracture.
+    /// Settings of the fracture model.
     pub fracture: FractureConfig,
     /// Number of vibration modes.
     pub modes: usize,
@@ -48,15 +48,15 @@ impl Settings {
 /// Kind of a knob's scale.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// A number; equal turns are equal factors.
+    /// A number on a logarithmic scale.
     Factor,
-    /// A number; equal turns are equal differences.
+    /// A number on a linear scale.
     Even,
     /// A whole number.
     Whole,
     /// On (1) or off (0).
     Switch,
-    /// One of these, by number from 0.
+    /// One of these choices, by index from 0.
     Choice(&'static [&'static str]),
 }
 
@@ -77,7 +77,7 @@ pub struct Knob {
     pub kind: Kind,
     /// Description of its effect, with the equation it enters.
     pub help: &'static str,
-    /// True if turning it means that the body has to be baked again.
+    /// True if a change requires the body to be baked again.
     pub rebakes: bool,
     get: fn(&Settings) -> f64,
     set: fn(&mut Settings, f64),
@@ -96,7 +96,7 @@ impl Knob {
         (self.get)(settings) / self.factor
     }
 
-    /// Turns it to a value in its unit. A value out of range goes to the nearer end; NaN changes nothing.
+    /// Sets it to a value in its unit, clamped to its range; NaN is ignored.
     pub fn turn(&self, settings: &mut Settings, value: f64) {
         if value.is_nan() {
             return;

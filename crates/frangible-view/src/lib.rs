@@ -1,9 +1,9 @@
-//! Throw things, turn the knobs, see why it broke.
+//! Interactive viewer: throw things, change the parameters of the model, and inspect breaks.
 //!
-//! Two halves. The **view model** has no window: a [`Session`] runs a scene step by step, takes [`Command`]s and returns its state as a window shows
-//! it ([`Shown`]); [`Worker`] runs one on a thread of its own or in another program ([`Remote`]), so that neither a bake nor a break makes anybody
-//! wait; a [`Script`] is a list of commands. The **window** (feature `window`) draws what the session shows and turns mouse, keys and panels into the
-//! same commands that scripts give.
+//! The **view model** needs no window: a [`Session`] simulates a scene step by step, executes [`Command`]s and returns its displayed state
+//! ([`Shown`]); a [`Worker`] runs a session on another thread or in another program ([`Remote`]), so that bakes and breaks do not block; a
+//! [`Script`] is a list of commands. The **window** (feature `window`) displays the state and translates mouse, keys and panels to the same
+//! commands as scripts.
 //!
 //! ```no_run
 //! use frangible_view::{Command, Session};

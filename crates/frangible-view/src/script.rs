@@ -1,4 +1,4 @@
-//! A list of commands in a file: one per line, `#` begins a remark.
+//! Scripts: files with one command per line, and comments after `#`.
 
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::command::Command;
 use crate::error::ViewError;
 
-/// Commands to give one after the other; each waits for the jobs of the one before it (bakes, steps, a second impact).
+/// A sequence of commands. Each waits for the jobs of the one before it, such as bakes, steps or a repeated impact.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Script {
     commands: VecDeque<Command>,
@@ -16,7 +16,7 @@ impl Script {
     /// Reads a script; `path` is its name in messages.
     ///
     /// # Errors
-    /// The first line that is no command.
+    /// The first line that is not a command.
     pub fn parse(text: &str, path: &Path) -> Result<Self, ViewError> {
         let mut commands = VecDeque::new();
         for (number, line) in (1..).zip(text.lines()) {
@@ -36,7 +36,7 @@ impl Script {
     /// Reads a script's file.
     ///
     /// # Errors
-    /// A file that cannot be read; the first line that is no command.
+    /// A file that cannot be read, or the first line that is not a command.
     pub fn read(path: &Path) -> Result<Self, ViewError> {
         let text = std::fs::read_to_string(path).map_err(|source| ViewError::File {
             path: path.to_path_buf(),
@@ -46,7 +46,7 @@ impl Script {
         Self::parse(&text, path)
     }
 
-    /// Puts files with relative names in this folder.
+    /// Resolves relative file names to this folder.
     #[must_use]
     pub fn into_folder(mut self, folder: &Path) -> Self {
         let place = |path: &mut PathBuf| *path = folder.join(&path);
@@ -60,18 +60,18 @@ impl Script {
         self
     }
 
-    /// The next command.
+    /// Removes and returns the next command.
     pub fn next_command(&mut self) -> Option<Command> {
         self.commands.pop_front()
     }
 
-    /// The next command, left where it is.
+    /// Returns the next command without removing it.
     #[must_use]
     pub fn peek(&self) -> Option<&Command> {
         self.commands.front()
     }
 
-    /// Returns true if all commands were given.
+    /// Returns true if no commands are left.
     #[must_use]
     pub fn is_over(&self) -> bool {
         self.commands.is_empty()

@@ -1,8 +1,8 @@
-//! The view model: a scene, the commands on it, and its state as a window shows it. It has no window and no clock.
+//! The view model: a scene, its commands and its displayed state, without a window or a clock.
 //!
-//! Its user gives it commands ([`Session::apply`], `obey.rs`), lets it collect results computed elsewhere ([`Session::poll`], `collect.rs`), and asks
-//! for its state ([`Session::shown`], `look.rs`). Each of the other modules is about one kind of command: a scene begun (`start.rs`), steps and
-//! throws (`play.rs`), knobs turned (`turn.rs`), and so on.
+//! Its user passes commands ([`Session::apply`], `obey.rs`), lets it collect results from other threads ([`Session::poll`], `collect.rs`), and reads
+//! its state ([`Session::shown`], `look.rs`). Each other module implements one kind of command: loading scenes (`start.rs`), steps and throws
+//! (`play.rs`), knobs (`turn.rs`), and so on.
 
 mod collect;
 mod grab;
@@ -39,7 +39,7 @@ use crate::picture::Picture;
 use crate::shown::{Compared, Focus};
 use crate::times::Laps;
 
-/// A running scene, with the view of it. The same commands give the same scene, bit for bit.
+/// A running scene and its displayed state. The same commands give bit-identical scenes.
 pub struct Session {
     /// Instead of the disk and the bake, where there is neither.
     pub(crate) host: Option<Box<dyn Host>>,
@@ -162,7 +162,7 @@ impl Session {
         }
     }
 
-    /// A session without a scene yet. Bodies and files come from this host instead of a bake and the disk, and files are saved to it.
+    /// A session without a scene whose bodies and files come from a host instead of a bake and the disk. Files are saved to the host.
     #[must_use]
     pub fn in_host(host: Box<dyn Host>) -> Self {
         let mut session = Self::new();

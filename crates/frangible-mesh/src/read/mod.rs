@@ -1,8 +1,8 @@
-//! Mesh files to [`InputMesh`].
+//! Reading of mesh files to [`InputMesh`].
 //!
-//! OBJ, STL and PLY are read here: the crates for them either lose the place of an error and the double precision,
-//! take a binary STL whose header says “solid” for text, or build a map of strings per vertex. glTF's JSON is
-//! `gltf-json`'s; its buffers are decoded here with every range checked.
+//! OBJ, STL and PLY have their own readers, because existing crates lose error locations and double precision, mistake a binary STL whose header
+//! begins with “solid” for text, or build a map of strings per vertex. The JSON of glTF is parsed by `gltf-json`; its buffers are decoded here
+//! with every range checked.
 
 mod error;
 mod finish;
@@ -25,27 +25,27 @@ pub use nearest::{did_you_mean, nearest_file, nearest_name};
 
 use crate::InputMesh;
 
-/// Most triangles of one file.
+/// Largest number of triangles of a file.
 pub const MOST_TRIANGLES: u64 = 20_000_000;
 
 /// Most vertices of one file: three for each triangle.
 pub(crate) const MOST_VERTICES: u64 = 3 * MOST_TRIANGLES;
 
-/// Most bytes of one file, and of each file that it refers to.
+/// Largest size of a file, and of each file that it refers to, bytes.
 pub const MOST_BYTES: u64 = 2_000_000_000;
 
-/// Reads a mesh file, with the material library or buffers beside it.
+/// Reads a mesh file with its material library or buffers.
 ///
-/// The ending of the name tells the format, unless the first bytes clearly tell another; then those count and a
-/// warning is logged.
+/// The format follows from the file extension, unless the first bytes clearly indicate another format; then that one is used and a warning is
+/// logged.
 ///
 /// # Errors
-/// See [`ReadError`]; only those about the file itself name its path.
+/// See [`ReadError`]. Only errors about the file itself include its path.
 pub fn read_mesh(path: &Path) -> Result<InputMesh, ReadError> {
     parse_mesh_named(path, &read_file(path)?, path.parent())
 }
 
-/// Reads a mesh from memory, whose format name and first bytes tell as in [`read_mesh`]; see [`parse_mesh`].
+/// Reads a mesh from memory. The format follows from the name and the first bytes as in [`read_mesh`]; see [`parse_mesh`].
 ///
 /// # Errors
 /// See [`ReadError`].
@@ -75,8 +75,8 @@ pub fn parse_mesh_named(
     parse_mesh(format, bytes, folder)
 }
 
-/// Reads a mesh from memory. `folder` is where files that it refers to are looked for; without it a material library
-/// is passed over and an external buffer is an error.
+/// Reads a mesh from memory. `folder` is the folder of referenced files; without it, a material library is ignored and an external buffer is an
+/// error.
 ///
 /// # Errors
 /// See [`ReadError`].
@@ -99,7 +99,7 @@ pub fn parse_mesh(
     finish::finish(mesh)
 }
 
-/// Returns true for an address of the web, such as `https://example.org/a.glb`, and for those of other services.
+/// Returns true for a URL, such as `https://example.org/a.glb`.
 pub fn is_address(name: &str) -> bool {
     const SCHEMES: [&str; 4] = ["http", "https", "ftp", "s3"];
     // A scene's folder may have been put before it.
