@@ -81,7 +81,7 @@ impl WasmBody {
     /// empty.
     ///
     /// # Errors
-    /// A number that cannot be used.
+    /// An invalid number.
     pub fn impact(&mut self, mut contacts: Vec<f64>, pose: &[f64]) -> Result<Break, JsError> {
         if !pose.is_empty() {
             plain::to_body_frame(&mut contacts, pose);

@@ -35,7 +35,7 @@ fn double(numbers: &[f64]) -> DVec3 {
 /// A kind of body, ready to be broken; its strength scatters as its material's does.
 ///
 /// # Errors
-/// An asset whose arrays do not fit together, or with a number that cannot be used.
+/// An asset whose arrays do not fit together, or with an invalid number.
 pub fn kind(asset: Asset) -> Result<Breakable, InputError> {
     let fields = Fields::of_material(&asset.material);
     Breakable::new(asset)?.with_fields(fields)

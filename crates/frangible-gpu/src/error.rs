@@ -49,7 +49,7 @@ pub enum GpuError {
     /// Memory, the driver or the device failed.
     #[error("the GPU failed: {0}; try smaller batches, or choose the CPU")]
     Device(String),
-    /// A contact that cannot be used.
+    /// An invalid contact.
     #[error("impact {impact}: {error}")]
     Input {
         /// Its number in the batch, from 0.

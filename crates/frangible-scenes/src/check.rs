@@ -70,7 +70,7 @@ impl Scene {
     /// Checks every number before anything long begins. Files are not looked at.
     ///
     /// # Errors
-    /// The first quantity at fault, and its range.
+    /// The first invalid quantity, and its range.
     pub fn validate(&self) -> Result<(), SceneError> {
         self.check().map_err(|fault| {
             let several = match fault.item {

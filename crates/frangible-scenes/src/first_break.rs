@@ -28,7 +28,7 @@ pub struct FirstBreak {
     pub body: Body,
     /// Contacts that hit it, body frame.
     pub contacts: Vec<Contact>,
-    /// Switches and numbers of the fracture.
+    /// Settings of the fracture model.
     pub config: FractureConfig,
     /// Simulated time, s.
     pub time: f64,

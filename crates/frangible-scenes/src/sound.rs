@@ -40,7 +40,7 @@ impl Sounded {
     /// The bytes of a WAV file, as loud as fits: its full scale is the loudest of the samples, [`Sounded::loudest`].
     ///
     /// # Errors
-    /// What [`wav`] refuses.
+    /// The errors of [`wav`].
     pub fn wav(&self) -> Result<Vec<u8>, SoundError> {
         wav(
             &self.samples,

@@ -289,7 +289,7 @@ fn is_convex(asset: &Asset) -> bool {
 /// Makes the kind of bodies of this description and asset, with the weakness that the description gives them.
 ///
 /// # Errors
-/// A weakness that cannot be used.
+/// An invalid weakness.
 pub fn breakable(spec: &BodySpec, asset: &Arc<Asset>) -> Result<Breakable, SceneError> {
     let painted = weakness::from_paint(asset, &spec.paint)?;
     let fields = weakness::patched(painted, asset, &spec.weakness)?.scattered_as(&asset.material);
@@ -305,7 +305,7 @@ pub fn breakable(spec: &BodySpec, asset: &Arc<Asset>) -> Result<Breakable, Scene
 /// The intact body of this number, from 0, of a scene, as [`play`](crate::play()) puts it into its world.
 ///
 /// # Errors
-/// No body of this number; an asset or a weakness that cannot be used.
+/// An unknown body number, or an invalid asset or weakness.
 pub fn intact_body(scene: &Scene, number: usize, asset: &Arc<Asset>) -> Result<Body, SceneError> {
     let spec = scene.bodies.get(number).ok_or(SceneError::BakedBodies {
         wanted: number + 1,

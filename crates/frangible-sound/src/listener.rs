@@ -113,7 +113,7 @@ impl SoundFloor {
     /// Checks every number.
     ///
     /// # Errors
-    /// A number that is not finite or out of its range.
+    /// A number that is not finite or out of range.
     pub fn validate(&self) -> Result<(), SoundError> {
         finite(|| "the height of the floor".into(), self.height)?;
         let (share, modulus) = (self.reflection, self.shear_modulus);

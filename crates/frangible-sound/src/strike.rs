@@ -27,7 +27,7 @@ impl Strike {
     /// Checks every number, for this body.
     ///
     /// # Errors
-    /// The first number at fault.
+    /// The first invalid number.
     pub fn validate(&self, body: &Body) -> Result<(), SoundError> {
         self.pulse.validate()?;
         let name = &body.name;

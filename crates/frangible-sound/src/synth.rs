@@ -122,7 +122,7 @@ impl Synth {
     /// Removes a body immediately. Its number may be reused.
     ///
     /// # Errors
-    /// There is no such body.
+    /// An unknown body.
     pub fn remove(&mut self, body: usize) -> Result<(), SoundError> {
         self.body(body)?;
         self.voices[body] = None;
@@ -137,7 +137,7 @@ impl Synth {
     /// Moves a body at a time, s. The change takes effect within 128 samples.
     ///
     /// # Errors
-    /// There is no such body, or a number is not finite.
+    /// An unknown body, or a number that is not finite.
     pub fn put(
         &mut self,
         time: f64,
@@ -162,7 +162,7 @@ impl Synth {
     /// Silences a body within 32 samples from a time on, s, for example when it breaks and its pieces replace it.
     ///
     /// # Errors
-    /// There is no such body, or the time is not finite.
+    /// An unknown body, or a time that is not finite.
     pub fn hush(&mut self, time: f64, body: usize) -> Result<(), SoundError> {
         self.body(body)?;
         self.event(time, Event::Hush(body))
@@ -175,7 +175,7 @@ impl Synth {
     /// p = ρ c (1−ν) F′(t − r/c) / (2π r G sin θ). Right above, within some degrees, this grows beyond what is true, and sin θ is held at ¼.
     ///
     /// # Errors
-    /// A number that is not finite or out of its range.
+    /// A number that is not finite or out of range.
     pub fn thump(&mut self, time: f64, place: DVec3, pulse: Arc<Pulse>) -> Result<(), SoundError> {
         pulse.validate()?;
         placed(place, DQuat::IDENTITY)?;

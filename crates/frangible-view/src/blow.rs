@@ -23,7 +23,7 @@ pub struct Blow {
     pub contacts: Vec<Contact>,
     /// Cause of the break.
     pub cause: BreakCause,
-    /// Switches and numbers of the fracture then.
+    /// Settings of the fracture model at that time.
     pub config: FractureConfig,
     /// Numbers of the impact.
     pub report: ImpactReport,

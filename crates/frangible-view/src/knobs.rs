@@ -17,7 +17,7 @@ pub struct Settings {
     pub fracture: FractureConfig,
     /// Number of vibration modes.
     pub modes: usize,
-    /// Seed of the weak points and of the cracks' roughness.
+    /// Random seed of the weak points and of the roughness of the cracks.
     pub seed: u64,
     /// c of the duration `[G12 Eq. 2]` as printed, m^(1/5) s^(2/5); kept while another model is chosen.
     pub printed_coefficient: f64,

@@ -9,7 +9,7 @@ pub use frangible_material::{not_negative, positive};
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum InputError {
-    /// A number that is out of its range.
+    /// A number that is out of range.
     #[error(transparent)]
     Number(#[from] OutOfRange),
     /// A vector with a NaN or an infinity in it.

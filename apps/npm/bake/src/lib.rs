@@ -57,7 +57,7 @@ pub fn mesh(positions: &[f32], indices: &[u32], normals: &[f32], uvs: &[f32]) ->
 /// Bakes a mesh. Returns the body, and the transform from the mesh's positions to the body's frame.
 ///
 /// # Errors
-/// A mesh that cannot be meant as a solid, walls too thin for the tetrahedra wanted, a number that cannot be used.
+/// A mesh that cannot be meant as a solid, walls too thin for the tetrahedra wanted, an invalid number.
 pub fn bake(
     mesh: &InputMesh,
     wish: &Wish,

@@ -124,7 +124,7 @@ impl LiveScene {
     /// Swings a hammer onto a point; it is the last of [`LiveScene::things`] then. After the strike it is lifted away.
     ///
     /// # Errors
-    /// A number that cannot be used, or an unknown material.
+    /// An invalid number, or an unknown material.
     pub fn swing(&mut self, swing: &Swing) -> Result<(), SceneError> {
         let blow = swing.check()?;
         let material = Material::preset(&swing.material)?;

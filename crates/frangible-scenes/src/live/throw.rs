@@ -61,7 +61,7 @@ impl LiveScene {
     /// [`LiveScene::things`] then.
     ///
     /// # Errors
-    /// A number that cannot be used, an unknown material, a start below the floor.
+    /// An invalid number, an unknown material, a start below the floor.
     pub fn throw(&mut self, throw: &Throw) -> Result<(), SceneError> {
         throw.check()?;
         let radius = throw.radius as f32;

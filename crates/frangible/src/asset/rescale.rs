@@ -56,7 +56,7 @@ pub enum RescaleError {
         /// Name of the asset.
         asset: String,
     },
-    /// A number that cannot be used.
+    /// An invalid number.
     #[error(transparent)]
     Input(#[from] InputError),
 }
@@ -64,7 +64,7 @@ pub enum RescaleError {
 /// Returns the asset with another material of the same Poisson's ratio, as if it had been baked from it.
 ///
 /// # Errors
-/// [`RescaleError::PoissonRatio`] for a material of another ratio; a number of the material out of its range.
+/// [`RescaleError::PoissonRatio`] for a material of another ratio; a number of the material out of range.
 pub fn with_material(asset: &Asset, material: &Material) -> Result<Asset, RescaleError> {
     material.validate().map_err(InputError::from)?;
     let old = &asset.material;

@@ -31,7 +31,7 @@ const NEAREST: f32 = 0.01;
 /// Computes the outcome of a blast on a body. The whole surface that faces it is pushed at once.
 ///
 /// # Errors
-/// A number that is not finite, or an impulse or duration that is not above zero; what [`FractureConfig::validate`] refuses.
+/// A number that is not finite, or an impulse or duration that is not above zero; the errors of [`FractureConfig::validate`].
 pub fn blast(body: &Body, blast: &Blast, config: &FractureConfig) -> Result<Outcome, InputError> {
     finite("a blast's origin", blast.origin)?;
     positive(

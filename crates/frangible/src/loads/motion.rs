@@ -30,7 +30,7 @@ pub fn follow(
 /// [`follow()`] with a trace of its cracks, element by element: for tests.
 ///
 /// # Errors
-/// What [`follow()`] refuses.
+/// The errors of [`follow()`].
 pub fn follow_traced(
     body: &Body,
     motion: &Motion,

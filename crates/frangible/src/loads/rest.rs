@@ -38,7 +38,7 @@ const DIAGONALS: f64 = 3.0;
 /// [`FractureConfig::load_duration`].
 ///
 /// # Errors
-/// A force, point or gravity that is not finite; what [`FractureConfig::validate`] refuses.
+/// A force, point or gravity that is not finite; the errors of [`FractureConfig::validate`].
 pub fn rest(
     body: &Body,
     forces: &[Force],

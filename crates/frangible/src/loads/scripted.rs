@@ -16,7 +16,7 @@ const RADIUS: f32 = 0.01;
 /// Hertz's law gives for a rigid striker of 1 cm radius with this impulse. Whether the body breaks depends on the impulse, as ever.
 ///
 /// # Errors
-/// A number that is not finite, or an impulse of no length; what [`FractureConfig::validate`] refuses.
+/// A number that is not finite, or an impulse of no length; the errors of [`FractureConfig::validate`].
 pub fn fracture_at(
     body: &Body,
     point: Vec3,

@@ -19,7 +19,7 @@ impl Portion {
     /// stay, as in the impact that left them.
     ///
     /// # Errors
-    /// What [`FractureConfig::validate`] refuses.
+    /// The errors of [`FractureConfig::validate`].
     pub fn of_cracked(body: &Body, config: &FractureConfig) -> Result<Self, InputError> {
         config.validate()?;
         let system = CrackSystem::new(body, config, 0.0);

@@ -37,7 +37,7 @@ impl Asset {
     /// Saves the asset as [`Asset::save`] does, in the form that the options ask for.
     ///
     /// # Errors
-    /// What [`Asset::save`] refuses.
+    /// The errors of [`Asset::save`].
     pub fn save_with(
         &self,
         path: impl AsRef<Path>,
