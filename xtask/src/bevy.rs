@@ -82,7 +82,8 @@ fn fresh(target: &Path) -> Result<PathBuf> {
         .split("```")
         .nth(1)
         .and_then(|code| code.split_once('\n'));
-    let (_, lines) = lines.ok_or("the documentation of bevy_frangible does not begin with a code block")?;
+    let (_, lines) =
+        lines.ok_or("the documentation of bevy_frangible does not begin with a code block")?;
     let without_window = "(bevy::log::LogPlugin::default(), MinimalPlugins, AssetPlugin::default(), TransformPlugin, \
                           bevy::mesh::MeshPlugin)";
     let end = ".add_observer(|_: On<Broke>, mut exit: MessageWriter<AppExit>| { exit.write(AppExit::Success); })

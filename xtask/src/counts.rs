@@ -153,7 +153,8 @@ fn text(tools: &Tools, counts: &[Count]) -> String {
 }
 
 fn parse(text: &str) -> Result<(Tools, Vec<Count>)> {
-    let wrong = || format!("`{STORED}` is damaged; create it again with `cargo xtask counts --write`");
+    let wrong =
+        || format!("`{STORED}` is damaged; create it again with `cargo xtask counts --write`");
     let mut lines = text.lines().skip(1);
     let mut tool = || Some(lines.next()?.strip_prefix("# ")?.to_owned());
     let (Some(rustc), Some(valgrind), Some(system)) = (tool(), tool(), tool()) else {

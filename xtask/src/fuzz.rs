@@ -41,10 +41,7 @@ struct Folders {
 /// An input that breaks a target is an error that names the file and how to try it again.
 pub(crate) fn fuzz(seconds: u64) -> Result<Vec<String>> {
     if !cfg!(unix) || !cpp_compiler() {
-        return skipped(
-            "fuzz",
-            "no C++ compiler that libFuzzer supports was found",
-        );
+        return skipped("fuzz", "no C++ compiler that libFuzzer supports was found");
     }
     if !succeeds("cargo", &["fuzz", "--version"]) {
         let install = ["install", "cargo-fuzz", "--locked", "--version", VERSION];

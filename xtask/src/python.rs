@@ -26,7 +26,8 @@ const TOOLS: [&str; 11] = [
 pub(crate) fn wheel() -> Result<Vec<String>> {
     let Some(interpreter) = python() else {
         return Err(
-            "Python 3.10 or later with `venv` was not found; install python3 and python3-venv".into(),
+            "Python 3.10 or later with `venv` was not found; install python3 and python3-venv"
+                .into(),
         );
     };
     let from = root().join("apps/python");

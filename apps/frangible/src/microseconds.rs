@@ -31,7 +31,10 @@ pub(crate) fn microseconds(
     let [width, height] = args.frame;
     let raster = Raster::new(width, height)?;
     let found = first_break(scene, baked, &mut |done| {
-        bar.show(&format!("{}: simulating up to the first break", scene.name), done);
+        bar.show(
+            &format!("{}: simulating up to the first break", scene.name),
+            done,
+        );
     })?;
     let Some(found) = found else {
         return Err("nothing breaks in this scene, so there is nothing to film; hit the body harder (--drop, --ball)".into());
@@ -83,7 +86,10 @@ fn surface_at(wave: &Wave, moment: usize, most: f64, name: &str) -> ColoredSurfa
         legend: [
             "0".into(),
             format!("{:.0} MPa", 1e-6 * most),
-            format!("tension (cracks can start at {:.0} MPa)", 1e-6 * wave.strength),
+            format!(
+                "tension (cracks can start at {:.0} MPa)",
+                1e-6 * wave.strength
+            ),
         ],
     }
 }

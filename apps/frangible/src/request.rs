@@ -62,7 +62,9 @@ pub(crate) fn scene_of(file: Option<&Path>, args: &SceneArgs) -> Result<Request,
             ));
         }
         if args.drop.is_none() && args.ball.is_none() && args.supports.is_empty() {
-            notes.push("dropped from 1.5 m, because no other blow was given (--drop, --ball)".into());
+            notes.push(
+                "dropped from 1.5 m, because no other blow was given (--drop, --ball)".into(),
+            );
         }
     }
     set_material(&mut wanted, args.material.as_deref())?;
@@ -108,7 +110,10 @@ pub(crate) fn body_of(args: &BakeArgs) -> Result<Scene, Box<dyn Error>> {
     let mut wanted = opened(args.file.as_deref(), args.scene.as_deref())?;
     match &wanted.bodies[..] {
         [body] if matches!(body.source, BodySource::Asset(_)) => {
-            return Err("the file holds a body that is already baked; bake the mesh it was made from".into());
+            return Err(
+                "the file holds a body that is already baked; bake the mesh it was made from"
+                    .into(),
+            );
         }
         [_] => {}
         bodies => {

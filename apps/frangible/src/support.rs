@@ -16,9 +16,8 @@ pub fn parse_support(text: &str) -> Result<Support, String> {
         None => (text, [true; 3]),
         Some((region, letters)) => {
             let axes = axes_of(letters);
-            let axes = axes.ok_or_else(|| {
-                wrong("the axes after @ must be some of the letters x, y and z")
-            })?;
+            let axes = axes
+                .ok_or_else(|| wrong("the axes after @ must be some of the letters x, y and z"))?;
             (region, axes)
         }
     };
@@ -46,7 +45,11 @@ pub fn parse_support(text: &str) -> Result<Support, String> {
             }
         }
         "box" => {
-            let corners = numbers("a box takes its lowest and its highest corner, in m", rest, 6)?;
+            let corners = numbers(
+                "a box takes its lowest and its highest corner, in m",
+                rest,
+                6,
+            )?;
             Region::Box {
                 low: vector(&corners[..3]),
                 high: vector(&corners[3..]),

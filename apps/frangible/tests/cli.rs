@@ -228,7 +228,11 @@ fn a_ball_that_meets_nothing_is_told_how_to_aim() {
     let output = frangible(&args, Some(&folder.0));
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
     let table = text(&output.stdout);
-    for part in ["none hard enough", "no projectile hit a body", "--at and --toward"] {
+    for part in [
+        "none hard enough",
+        "no projectile hit a body",
+        "--at and --toward",
+    ] {
         assert!(table.contains(part), "no `{part}` in: {table}");
     }
 }

@@ -133,7 +133,10 @@ fn options_for_meshes_are_refused_elsewhere() {
         &["break", &baked, "--size", "-0.1"],
         &["the body's size is -0.1"],
     );
-    check(&["break", &baked, "--modes", "9"], &["already baked", "bake"]);
+    check(
+        &["break", &baked, "--modes", "9"],
+        &["already baked", "bake"],
+    );
     check(
         &["break", &baked, "--resolution", "3000"],
         &["--resolution cannot change `a`", "`frangible bake`"],

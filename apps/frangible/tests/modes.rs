@@ -201,7 +201,10 @@ fn what_cannot_be_looked_at_is_refused_in_a_sentence_and_leaves_nothing() {
             vec!["--scene", "vase", "--vtu", &grid, "--fracture-vtu", &grid],
             "the same file",
         ),
-        (vec!["--scene", "vase", "--size", "1"], "--size applies only to mesh"),
+        (
+            vec!["--scene", "vase", "--size", "1"],
+            "--size applies only to mesh",
+        ),
         (vec!["--scene", "vase", "--material", "gless"], "glass"),
     ] {
         let output = frangible(&[&["modes"], &args[..]].concat(), None);

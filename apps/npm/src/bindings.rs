@@ -115,7 +115,9 @@ impl WasmBody {
                 margin: 0.0,
                 fracture: *fracture,
             }),
-            _ => Err(JsError::new("unknown kind of outcome; the npm package and the core crate do not match")),
+            _ => Err(JsError::new(
+                "unknown kind of outcome; the npm package and the core crate do not match",
+            )),
         }
     }
 }

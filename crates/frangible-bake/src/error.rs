@@ -88,9 +88,7 @@ pub enum BakeError {
         known: String,
     },
     /// Supports that fix the whole body.
-    #[error(
-        "the supports fix the whole body, so nothing can vibrate; make their regions smaller"
-    )]
+    #[error("the supports fix the whole body, so nothing can vibrate; make their regions smaller")]
     AllHeld,
     /// More modes requested than the analysis mesh has.
     #[error(

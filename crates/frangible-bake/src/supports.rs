@@ -99,7 +99,9 @@ impl Region {
         match *self {
             Self::HalfSpace { point, normal } => {
                 if !(point.is_finite() && normal.is_finite()) {
-                    Some("has a coordinate or radius that is not finite; give finite numbers in metres")
+                    Some(
+                        "has a coordinate or radius that is not finite; give finite numbers in metres",
+                    )
                 } else if normal.try_normalize().is_none() {
                     Some("has a normal of length zero; give a direction")
                 } else {
@@ -117,7 +119,9 @@ impl Region {
             }
             Self::Sphere { centre, radius } => {
                 if !(centre.is_finite() && radius.is_finite()) {
-                    Some("has a coordinate or radius that is not finite; give finite numbers in metres")
+                    Some(
+                        "has a coordinate or radius that is not finite; give finite numbers in metres",
+                    )
                 } else if radius <= 0.0 {
                     Some("has a radius that is not above zero; give a positive radius in metres")
                 } else {

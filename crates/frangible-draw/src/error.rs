@@ -10,7 +10,9 @@ pub enum DrawError {
     /// No graphics adapter found.
     #[cfg_attr(
         target_family = "wasm",
-        error("the browser offers neither WebGPU nor WebGL 2; use a browser with one of them, or turn on hardware acceleration")
+        error(
+            "the browser offers neither WebGPU nor WebGL 2; use a browser with one of them, or turn on hardware acceleration"
+        )
     )]
     #[cfg_attr(
         not(target_family = "wasm"),

@@ -57,7 +57,9 @@ pub enum TetError {
         share: f64,
     },
     /// Parts joined only along edges, which repeated repairs did not resolve.
-    #[error("parts of the body are joined only along edges; request slightly more or fewer tetrahedra")]
+    #[error(
+        "parts of the body are joined only along edges; request slightly more or fewer tetrahedra"
+    )]
     Pinched,
     /// A tetrahedron flatter than promised.
     #[error(

@@ -31,7 +31,9 @@ pub enum TetInputError {
     #[error("the mesh has no tetrahedra; a body needs a volume mesh")]
     Empty,
     /// An index beyond the nodes, or a list of another length than the tetrahedra.
-    #[error("tetrahedron {element} refers to a node that does not exist, or lacks an entry in one of the lists")]
+    #[error(
+        "tetrahedron {element} refers to a node that does not exist, or lacks an entry in one of the lists"
+    )]
     Index {
         /// Its number in the file.
         element: u64,

@@ -202,7 +202,10 @@ fn two_balls_apart_are_refused_and_a_crumb_is_dropped_and_told() {
     let (body, report) = tetrahedralize(&crumb, &options(Resolution::Tets(4000))).unwrap();
     check_sound(&body);
     assert!(report.pieces == 2 && report.kept > 0.98, "{report}");
-    assert!(report.to_string().contains("1 disconnected piece"), "{report}");
+    assert!(
+        report.to_string().contains("1 disconnected piece"),
+        "{report}"
+    );
 }
 
 #[test]

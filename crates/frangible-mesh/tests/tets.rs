@@ -238,7 +238,10 @@ fn refusals_name_the_culprit_and_the_mend() {
         (msh("1 5 2 0 1 1 2 3 4 1 2 3 4"), "hexahedra"),
         (msh("8 4 2 0 1 1 2 3 9"), "element 8: it refers to node 9"),
         (msh("1 2 2 0 1 1 2 3"), "no tetrahedra"),
-        (msh("1 4 2 0 1 1 2 x 4"), "line 13: “x” is not a whole number"),
+        (
+            msh("1 4 2 0 1 1 2 x 4"),
+            "line 13: “x” is not a whole number",
+        ),
         (msh("1 29 2 0 1 1 2 3 4"), "third or higher order"),
         (
             refused(TetFormat::Msh, "$MeshFormat\n4 0 8\n"),

@@ -9,7 +9,9 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum WorldError {
     /// A thread that computed a break panicked.
-    #[error("the thread that computed a break panicked; the body stays whole. Please report this as a bug")]
+    #[error(
+        "the thread that computed a break panicked; the body stays whole. Please report this as a bug"
+    )]
     JudgeFailed,
     /// A quantity that must be finite and above zero is not.
     #[error("{what} is {value}; it must be a finite number above zero")]
@@ -34,7 +36,9 @@ pub enum WorldError {
     #[error("restitution is {0}; it must lie between 0 (no bounce) and 1 (full bounce)")]
     Restitution(f32),
     /// A position, rotation or velocity with a NaN or an infinity in it.
-    #[error("{what} has a component that is not finite; give finite numbers in metres, radians and seconds")]
+    #[error(
+        "{what} has a component that is not finite; give finite numbers in metres, radians and seconds"
+    )]
     NotFinite {
         /// The quantity.
         what: &'static str,

@@ -138,8 +138,7 @@ pub(crate) fn crockery() -> Result<Scene, SceneError> {
     let kind = bodies[0].clone();
     Ok(Scene {
         name: "crockery".into(),
-        summary: "bowls and a vase on a porcelain shelf, hit from above by a heavy ball"
-            .into(),
+        summary: "bowls and a vase on a porcelain shelf, hit from above by a heavy ball".into(),
         bodies,
         projectiles: vec![ball],
         duration: 4.0,

@@ -99,7 +99,10 @@ impl Files {
     pub(crate) fn scene(&self, path: &Path) -> Result<String, SceneError> {
         self.check(path, FileKind::Scene)?;
         if self.length(path).is_ok_and(|length| length > LARGEST) {
-            return Err(wrong(path, "this is too large for a scene (limit: 1 MiB)".into()));
+            return Err(wrong(
+                path,
+                "this is too large for a scene (limit: 1 MiB)".into(),
+            ));
         }
         String::from_utf8(self.bytes(path)?.into_owned())
             .map_err(|_| wrong(path, "this is not TOML: it is not UTF-8 text".into()))

@@ -155,8 +155,11 @@ impl BreakRecord {
         }
         // Cracks under a resting load are paid by the work of gravity that bent the body before.
         let after = self.kinetic_after + if impact { self.cracks_together } else { 0.0 };
-        above(after, before)
-            .then(|| format!("{after} J of kinetic and crack energy from {before} J of kinetic energy and work"))
+        above(after, before).then(|| {
+            format!(
+                "{after} J of kinetic and crack energy from {before} J of kinetic energy and work"
+            )
+        })
     }
 }
 

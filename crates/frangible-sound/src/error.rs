@@ -35,9 +35,7 @@ pub enum SoundError {
         expected: String,
     },
     /// A number of a body that was never added, or was removed.
-    #[error(
-        "there is no body {index}; {count} bodies were added, numbered from 0 in that order"
-    )]
+    #[error("there is no body {index}; {count} bodies were added, numbered from 0 in that order")]
     NoBody {
         /// The number.
         index: usize,

@@ -47,7 +47,9 @@ impl Session {
             }
             Target::Report => {
                 let blow = self.blow().ok_or_else(|| {
-                    ViewError::NotNow("there has been no contact yet, so there is nothing to report".into())
+                    ViewError::NotNow(
+                        "there has been no contact yet, so there is nothing to report".into(),
+                    )
                 })?;
                 let mut report = Report::of(blow);
                 if let Some(methods) = &self.methods().filter(|m| Arc::ptr_eq(&m.blow, blow)) {

@@ -96,7 +96,9 @@ fn the_numbers_are_in_the_report_that_is_saved() {
 #[test]
 fn what_cannot_be_compared_is_told() {
     let mut session = pane("methods-refused");
-    assert!(refusal(&mut session, "compare-methods first").contains("there has been no contact yet"));
+    assert!(
+        refusal(&mut session, "compare-methods first").contains("there has been no contact yet")
+    );
     give(&mut session, "step 500");
     let all = "compare-methods ours,quasi-static,elements,energy-voronoi,voronoi";
     assert!(refusal(&mut session, all).contains("up to 4"));

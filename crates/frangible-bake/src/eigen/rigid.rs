@@ -76,8 +76,7 @@ pub(crate) fn deflation_basis(
     match metric.orthonormalise(motions) {
         Some((basis, _)) => Ok(basis),
         None => Err(BakeError::Factorization {
-            reason: "the body is as thin as a line, so its rotations are not independent"
-                .into(),
+            reason: "the body is as thin as a line, so its rotations are not independent".into(),
         }),
     }
 }

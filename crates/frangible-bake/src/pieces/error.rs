@@ -15,7 +15,9 @@ pub enum PieceError {
     #[error(transparent)]
     Body(#[from] InputError),
     /// A matrix that cannot be factored.
-    #[error("the stiffness matrix of a piece cannot be factorized ({reason}); the piece cannot break again")]
+    #[error(
+        "the stiffness matrix of a piece cannot be factorized ({reason}); the piece cannot break again"
+    )]
     Factorization {
         /// Reason given by the solver.
         reason: String,

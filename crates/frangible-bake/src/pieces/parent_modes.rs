@@ -246,7 +246,9 @@ fn ritz(stiffness: &Block, mass: &Block, rigid: usize) -> Result<(Vec<f64>, Bloc
         .filter(|&i| values[i] > 0.0)
         .collect();
     if elastic.is_empty() {
-        return Err(refused("the parent's modes have no deformation on the piece"));
+        return Err(refused(
+            "the parent's modes have no deformation on the piece",
+        ));
     }
     let chosen = Block::from_fn(kept.len(), elastic.len(), |i, j| vectors[(i, elastic[j])]);
     let eigenvalues = elastic.iter().map(|&i| values[i]).collect();

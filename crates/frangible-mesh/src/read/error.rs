@@ -34,7 +34,9 @@ pub enum ReadError {
     #[error("the file is empty")]
     Empty,
     /// Neither the name nor the content identifies the format.
-    #[error("cannot determine the format of {name}; known formats are .obj, .stl, .ply, .gltf and .glb")]
+    #[error(
+        "cannot determine the format of {name}; known formats are .obj, .stl, .ply, .gltf and .glb"
+    )]
     UnknownFormat {
         /// File name, or a description of the input.
         name: String,

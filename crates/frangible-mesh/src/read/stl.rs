@@ -53,7 +53,9 @@ fn looks_written(bytes: &[u8]) -> bool {
 fn counted(there: usize) -> Result<u32, ReadError> {
     check_triangles(there as u64)?;
     if there > 0 {
-        log::warn!("the facet count of the binary STL does not match its length, which holds {there} facets; reading {there}");
+        log::warn!(
+            "the facet count of the binary STL does not match its length, which holds {there} facets; reading {there}"
+        );
     }
     Ok(there as u32)
 }
@@ -137,7 +139,10 @@ fn parse_text(bytes: &[u8]) -> Result<InputMesh, ReadError> {
             corners.clear();
         } else if is(b"endfacet") {
             if corners.len() < 3 {
-                let problem = format!("the facet has {} vertices; it must have three", corners.len());
+                let problem = format!(
+                    "the facet has {} vertices; it must have three",
+                    corners.len()
+                );
                 return Err(ReadError::malformed(place(&cursor), problem));
             }
             triangulate(&corners, &mut triangles);

@@ -80,8 +80,7 @@ impl Builder {
             return Err(ReadError::NoTetrahedra);
         }
         if !self.mids.is_empty() && self.mids.len() != self.tets.len() {
-            let problem =
-                "tetrahedra with four and with ten nodes are mixed; save all elements with the same order";
+            let problem = "tetrahedra with four and with ten nodes are mixed; save all elements with the same order";
             return Err(ReadError::malformed("the elements", problem));
         }
         if let Some(at) = self.positions.iter().position(|p| !p.is_finite()) {

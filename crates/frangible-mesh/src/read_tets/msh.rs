@@ -65,7 +65,8 @@ fn format(cursor: &mut Cursor<'_>) -> Result<bool, ReadError> {
     let binary = cursor.integer(4, inside)? != 0;
     let size = cursor.integer(4, inside)?;
     if !(version == 4.1 || (2.0..3.0).contains(&version)) {
-        let asked = format!("MSH version {version} is not supported; save the mesh as version 2.2 or 4.1");
+        let asked =
+            format!("MSH version {version} is not supported; save the mesh as version 2.2 or 4.1");
         return Err(cursor.malformed(asked));
     }
     if size != 8 {

@@ -60,7 +60,10 @@ impl Grid {
                 b"DATASET" => {
                     let kind = cursor.word().unwrap_or_default();
                     if kind != b"UNSTRUCTURED_GRID" {
-                        let needs = format!("the dataset is “{}”; it must be UNSTRUCTURED_GRID", shown(kind));
+                        let needs = format!(
+                            "the dataset is “{}”; it must be UNSTRUCTURED_GRID",
+                            shown(kind)
+                        );
                         return Err(cursor.malformed(needs));
                     }
                 }
@@ -82,10 +85,7 @@ impl Grid {
                 // After the last group nothing is needed, and these are many.
                 _ if tuples > 0 => {
                     if !self.attribute(cursor, keyword, tuples, of_cells)? {
-                        log::warn!(
-                            "VTK attributes from “{}” on are ignored",
-                            shown(keyword)
-                        );
+                        log::warn!("VTK attributes from “{}” on are ignored", shown(keyword));
                         return Ok(());
                     }
                 }

@@ -44,9 +44,9 @@ pub(super) fn parse(bytes: &[u8]) -> Result<TetInput, ReadError> {
             _ => {}
         }
     }
-    let settings = file
-        .settings
-        .ok_or_else(|| ReadError::malformed("line 1", "a VTU file must have a <VTKFile> element"))?;
+    let settings = file.settings.ok_or_else(|| {
+        ReadError::malformed("line 1", "a VTU file must have a <VTKFile> element")
+    })?;
     let mut builder = Builder::default();
     let (mut nodes, mut done) = (0, 0);
     for piece in &pieces {

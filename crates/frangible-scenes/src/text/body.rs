@@ -87,7 +87,8 @@ pub(super) fn body(table: BodyTable, usual: String, folder: &Path) -> Result<Bod
             return Err(clash("shape", problem));
         }
         _ => {
-            let problem = "a body has exactly one of `shape`, `mesh` and `asset`; remove the others";
+            let problem =
+                "a body has exactly one of `shape`, `mesh` and `asset`; remove the others";
             return Err(clash("shape", problem));
         }
     };
@@ -234,8 +235,7 @@ fn rotation(turns: &[RotationTable]) -> Result<Quat, Fault> {
             }
             (None, None, Some(q)) => Quat::from_array(q.map(|x| x as f32)),
             _ => {
-                let problem =
-                    "a rotation must be { axis = \"z\", degrees = 30 } or { quaternion = [x, y, z, w] }";
+                let problem = "a rotation must be { axis = \"z\", degrees = 30 } or { quaternion = [x, y, z, w] }";
                 return Err(clash("rotation", problem));
             }
         };

@@ -23,7 +23,8 @@ pub(super) fn support(table: SupportTable) -> Result<Support, Fault> {
         (None, None) => {}
         (Some(side), Some(at)) => regions.push(side_of(side, at)?),
         _ => {
-            let problem = "`side` and `at` must be given together, for example { side = \"-x\", at = 0.02 }";
+            let problem =
+                "`side` and `at` must be given together, for example { side = \"-x\", at = 0.02 }";
             return Err(clash(KEY, problem));
         }
     }

@@ -108,8 +108,7 @@ fn patch(table: WeaknessTable) -> Result<Patch, Fault> {
 }
 
 fn single_factor(given: Option<OneOrTwo>) -> Result<Option<f32>, Fault> {
-    let problem =
-        "a zone takes single factors; pairs, for colour 0 and colour 1, are allowed only with `paint`";
+    let problem = "a zone takes single factors; pairs, for colour 0 and colour 1, are allowed only with `paint`";
     given
         .map(|g| g.one().ok_or_else(|| clash(KEY, problem)))
         .transpose()

@@ -24,9 +24,9 @@ pub(super) struct Again {
 
 impl Session {
     fn settings_mut(&mut self) -> Result<&mut [Settings; 2], ViewError> {
-        self.settings
-            .as_mut()
-            .ok_or_else(|| ViewError::NotNow("no scene is loaded; load one before setting knobs".into()))
+        self.settings.as_mut().ok_or_else(|| {
+            ViewError::NotNow("no scene is loaded; load one before setting knobs".into())
+        })
     }
 
     pub(super) fn turn(&mut self, name: &str, value: f64) -> Result<(), ViewError> {
@@ -85,7 +85,10 @@ impl Session {
         if untouched {
             self.prepare();
         } else {
-            self.say("H repeats the last impact with the new knobs, R restarts the scene with them".into());
+            self.say(
+                "H repeats the last impact with the new knobs, R restarts the scene with them"
+                    .into(),
+            );
         }
     }
 

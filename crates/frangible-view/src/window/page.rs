@@ -76,7 +76,9 @@ impl Viewer {
 /// Reason that a page cannot carry out a command.
 pub(super) fn not_here(command: &Command) -> String {
     match command {
-        Command::Film(..) => "the web page cannot make films or stills; use `frangible view`".into(),
+        Command::Film(..) => {
+            "the web page cannot make films or stills; use `frangible view`".into()
+        }
         Command::Screenshot(_) => "use the browser to take a screenshot".into(),
         _ => format!("`{command}` is not available on the web page"),
     }

@@ -97,7 +97,8 @@ impl Receptance {
 
     /// Reads the output of [`Self::to_numbers`]; call [`Self::validate`] afterwards.
     pub(crate) fn of_numbers(numbers: &[f64], modes: usize) -> Result<Self, InputError> {
-        let torn = InputError::Receptance("the number of its values does not match its number of modes");
+        let torn =
+            InputError::Receptance("the number of its values does not match its number of modes");
         let Some((&head, lists)) = numbers.split_first_chunk::<16>() else {
             return Err(torn);
         };
@@ -118,7 +119,11 @@ impl Receptance {
             0.0 => None,
             1.0 => Some(PlateTheory::Kirchhoff),
             2.0 => Some(PlateTheory::Layer),
-            _ => return Err(InputError::Receptance("the plate theory of its wall is unknown")),
+            _ => {
+                return Err(InputError::Receptance(
+                    "the plate theory of its wall is unknown",
+                ));
+            }
         };
         let whole = followed as usize;
         // Bit for bit: what would not be written again is refused.
@@ -128,7 +133,9 @@ impl Receptance {
             ));
         }
         if theory.is_none() && head[4..].iter().any(|x| x.to_bits() != 0) {
-            return Err(InputError::Receptance("it has values for a wall, but no wall"));
+            return Err(InputError::Receptance(
+                "it has values for a wall, but no wall",
+            ));
         }
         Ok(Self {
             eigenvalues: lists[..modes].to_vec(),

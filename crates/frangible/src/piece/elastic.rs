@@ -66,7 +66,8 @@ impl Body {
         if !Arc::ptr_eq(&self.asset.fracture, &root.fracture) {
             return Err(InputError::Asset {
                 asset: root.name.clone(),
-                problem: "the portion belongs to another body; pass it to the body that broke".into(),
+                problem: "the portion belongs to another body; pass it to the body that broke"
+                    .into(),
             });
         }
         if elastic.tets.len() != tets.len() || elastic.nodes.len() != nodes.len() {

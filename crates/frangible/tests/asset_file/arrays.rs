@@ -11,8 +11,14 @@ fn arrays_that_do_not_fit_are_refused() {
             |a| a.supported[1] = 8,
             "supported node 1 lies beyond the 8 nodes",
         ),
-        (|a| a.supported[1] = 1, "supported nodes are not in ascending order"),
-        (|a| a.supported.reverse(), "supported nodes are not in ascending order"),
+        (
+            |a| a.supported[1] = 1,
+            "supported nodes are not in ascending order",
+        ),
+        (
+            |a| a.supported.reverse(),
+            "supported nodes are not in ascending order",
+        ),
         (|a| a.material.density = f64::NAN, "density"),
         (|a| a.mass.mass = 0.0, "its mass is 0"),
         (|a| a.mass.volume = f64::INFINITY, "its volume is inf"),
@@ -33,7 +39,10 @@ fn arrays_that_do_not_fit_are_refused() {
             "node 4 is not finite",
         ),
         (|a| mesh(a).neighbours.truncate(5), "neighbour row"),
-        (|a| mesh(a).neighbours.swap(0, 1), "are not neighbours of each other"),
+        (
+            |a| mesh(a).neighbours.swap(0, 1),
+            "are not neighbours of each other",
+        ),
         (
             |a| mesh(a).neighbours[0] = [0; 4],
             "tetrahedra 0 and 0 are not neighbours of each other",

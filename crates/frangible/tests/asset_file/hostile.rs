@@ -127,7 +127,9 @@ fn another_version_is_refused_before_anything_else_is_believed_and_says_how_to_g
         assert_eq!(error, AssetFileError::Version { found, supported });
         let text = error.to_string();
         assert!(
-            text.contains(&format!("format version is {found}, but this build reads version {supported}")),
+            text.contains(&format!(
+                "format version is {found}, but this build reads version {supported}"
+            )),
             "{text}"
         );
         assert!(text.contains("bake it again: frangible bake"), "{text}");
@@ -183,7 +185,10 @@ fn a_hostile_table_is_refused() {
         with(20, &u32::MAX.to_le_bytes()),
         "does not hold the 4294967295 sections",
     );
-    expect(with(at + 8, &(start + 4).to_le_bytes()), "not a multiple of 8");
+    expect(
+        with(at + 8, &(start + 4).to_le_bytes()),
+        "not a multiple of 8",
+    );
     expect(
         with(at + 8, &0_u64.to_le_bytes()),
         "inside the data before it",

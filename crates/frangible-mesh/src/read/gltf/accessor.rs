@@ -104,8 +104,9 @@ pub(super) fn read<const N: usize>(
         // Zeros that others replace. A few bytes must not ask for gigabytes.
         None if accessor.sparse.is_some() && count <= buffers.bytes() => vec![[0.0; N]; count],
         None if accessor.sparse.is_some() => {
-            let problem =
-                format!("it has {count} elements, more than the buffers have bytes; export the file again");
+            let problem = format!(
+                "it has {count} elements, more than the buffers have bytes; export the file again"
+            );
             return Err(bad(&problem));
         }
         None => return Err(bad("it has no data; export it with its buffer")),

@@ -125,7 +125,9 @@ fn read_lists(
     let is_face = |p: &Property| if has_named { is_named(p) } else { is_list(p) };
     if !has_named && lists != 1 {
         let name = String::from_utf8_lossy(&element.name);
-        let problem = format!("{name}: there is no list property vertex_indices; give the list of vertex indices that name");
+        let problem = format!(
+            "{name}: there is no list property vertex_indices; give the list of vertex indices that name"
+        );
         return Err(ReadError::malformed("the header", problem));
     }
     for row in 0..element.count {

@@ -21,8 +21,10 @@ impl Panels {
                 .range(0.5..=20.0)
                 .speed(0.1)
                 .max_decimals(1);
-            ui.add(seconds.suffix(" s"))
-                .on_hover_text(format!("length of the film; the last {:.1} s are available", shown.reel));
+            ui.add(seconds.suffix(" s")).on_hover_text(format!(
+                "length of the film; the last {:.1} s are available",
+                shown.reel
+            ));
             for (label, kind, ending, hint) in [
                 (
                     "GIF",

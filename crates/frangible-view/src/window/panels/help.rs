@@ -26,10 +26,16 @@ pub(super) fn show(ctx: &egui::Context, open: &mut bool) {
                         .show(ui, |ui| {
                             for (hand, does) in [
                                 ("click", "throw the ball at this point, or swing the hammer"),
-                                ("shift + click", "select a piece to show its mass, volume, size and speed"),
+                                (
+                                    "shift + click",
+                                    "select a piece to show its mass, volume, size and speed",
+                                ),
                                 ("ctrl + drag", "grab an object and fling it"),
                                 ("drag", "orbit the camera"),
-                                ("shift + drag", "pan the camera (or drag with the middle button)"),
+                                (
+                                    "shift + drag",
+                                    "pan the camera (or drag with the middle button)",
+                                ),
                                 ("wheel", "zoom"),
                                 ("drop a file", "load a mesh, a baked body or a scene"),
                             ] {

@@ -39,9 +39,7 @@ pub(super) fn panel(
         return;
     }
     let Some(blow) = &shown.blow else {
-        ui.label(
-            "No contact yet: click into the scene to throw a ball, or drop the body.",
-        );
+        ui.label("No contact yet: click into the scene to throw a ball, or drop the body.");
         return;
     };
     contact(ui, blow);
@@ -81,7 +79,11 @@ fn subjects(ui: &mut Ui, shown: &Shown, commands: &mut Vec<Command>) {
                 "cracks",
                 "3: the cracks, coloured by the order in which they started",
             ),
-            (Subject::Modes, "modes", "4: the vibration modes, one at a time"),
+            (
+                Subject::Modes,
+                "modes",
+                "4: the vibration modes, one at a time",
+            ),
             (
                 Subject::Compare,
                 "compare",

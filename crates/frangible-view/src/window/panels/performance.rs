@@ -93,10 +93,7 @@ pub(super) fn panel(ui: &mut Ui, shown: &Shown, times: &FrameTimes) {
         .allow_zoom(false)
         .allow_scroll(false)
         .show(ui, |plot| {
-            for (laps, name) in [
-                (&times.wall, "frame, ms"),
-                (&times.processor, "CPU, ms"),
-            ] {
+            for (laps, name) in [(&times.wall, "frame, ms"), (&times.processor, "CPU, ms")] {
                 let frames = laps.iter().enumerate();
                 let points: Vec<[f64; 2]> = frames.map(|(i, t)| [i as f64, 1e3 * t]).collect();
                 plot.line(Line::new(name, PlotPoints::from(points)));

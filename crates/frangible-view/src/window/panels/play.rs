@@ -122,7 +122,9 @@ impl Panels {
                 }
             }
             let picture = (!self.in_page).then(|| ui.small_button("picture"));
-            if picture.is_some_and(|button| button.on_hover_text("screenshot of the window").clicked()) {
+            if picture
+                .is_some_and(|button| button.on_hover_text("screenshot of the window").clicked())
+            {
                 commands.push(Command::Screenshot(self.file(shown, "png")));
             }
         });

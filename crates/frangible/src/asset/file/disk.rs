@@ -72,9 +72,9 @@ fn write_new(path: &Path, bytes: &[u8]) -> Result<(), (io::Error, bool)> {
 }
 
 fn sibling(path: &Path) -> io::Result<PathBuf> {
-    let name = path
-        .file_name()
-        .ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "the path does not name a file"))?;
+    let name = path.file_name().ok_or_else(|| {
+        io::Error::new(io::ErrorKind::InvalidInput, "the path does not name a file")
+    })?;
     let mut temporary = OsString::from(".");
     temporary.push(name);
     let count = SAVES.fetch_add(1, Ordering::Relaxed);

@@ -24,7 +24,9 @@ pub(crate) fn embedded(what: &str, points: &[EmbeddedPoint], elements: usize) ->
         points,
         |p| (p.element as usize) < elements,
         |i| {
-            format!("embedded {what} {i} refers to an analysis element beyond the {elements} that exist")
+            format!(
+                "embedded {what} {i} refers to an analysis element beyond the {elements} that exist"
+            )
         },
     )?;
     let sound =

@@ -29,7 +29,9 @@ pub(super) fn neighbours(mesh: &TetMesh) -> Check {
             }
             let o = other as usize;
             let (Some(other_tet), Some(back)) = (mesh.tets.get(o), mesh.neighbours.get(o)) else {
-                return Err(format!("tetrahedron {e} refers to neighbour {o}, but there are only {tets}"));
+                return Err(format!(
+                    "tetrahedron {e} refers to neighbour {o}, but there are only {tets}"
+                ));
             };
             let same = |f: &[usize; 3]| {
                 let theirs = f.map(|i| other_tet[i]);

@@ -130,7 +130,10 @@ fn compared(
         bar.show(&format!("{}: {}", scene.name, p.stage), p.fraction);
     })?;
     let found = first_break(scene, &baked, &mut |share| {
-        bar.show(&format!("{}: simulating up to the first break", scene.name), share);
+        bar.show(
+            &format!("{}: simulating up to the first break", scene.name),
+            share,
+        );
     })?;
     let found = found.ok_or_else(|| {
         format!(
