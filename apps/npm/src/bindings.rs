@@ -1,4 +1,5 @@
-//! Functions that the package's script calls. Numbers pass in rows, see [`plain`](crate::plain); the script makes sentences and objects of them.
+//! Functions called by the script of the package. Numbers are passed as rows, see [`plain`](crate::plain); the script converts them to objects and
+//! messages.
 
 use frangible::{Asset, Body, Breakable, Fracture, FractureConfig, Material, Outcome, impact};
 use js_sys::{Array, Float32Array, Float64Array, Object, Reflect, Uint32Array};
@@ -9,7 +10,7 @@ use crate::plain::{self, Drawn};
 /// Plane-strain modulus, Pa, crushing pressure, Pa, and coefficient of restitution of a named material.
 ///
 /// # Errors
-/// A name that no material has.
+/// An unknown material.
 #[wasm_bindgen]
 pub fn material(name: &str) -> Result<Vec<f64>, JsError> {
     let material = Material::preset(name)?;
@@ -23,7 +24,7 @@ pub fn material(name: &str) -> Result<Vec<f64>, JsError> {
 /// Radius, m, of a ball of this mass, kg, and named material.
 ///
 /// # Errors
-/// A name that no material has.
+/// An unknown material.
 #[wasm_bindgen]
 pub fn ball(name: &str, mass: f64) -> Result<f64, JsError> {
     let density = Material::preset(name)?.density;
@@ -39,7 +40,7 @@ impl Kind {
     /// Reads a baked body.
     ///
     /// # Errors
-    /// A file that is none, is cut short or damaged, or of another version.
+    /// A file that is not a baked body, is truncated or damaged, or has another version.
     #[wasm_bindgen(constructor)]
     pub fn new(bytes: &[u8]) -> Result<Kind, JsError> {
         Ok(Self(plain::kind(Asset::from_bytes(bytes)?)?))
@@ -59,7 +60,7 @@ impl Kind {
         object
     }
 
-    /// One body of the kind.
+    /// Makes one body of the kind.
     pub fn body(&self, seed: u32) -> WasmBody {
         WasmBody(self.0.body(seed.into()))
     }
@@ -77,8 +78,7 @@ impl From<Body> for WasmBody {
 
 #[wasm_bindgen]
 impl WasmBody {
-    /// Computes the effect of contacts on the body; the contacts are rows of numbers. If they are in world axes, `pose` is the body's pose, else
-    /// empty.
+    /// Computes the outcome of contacts, given as rows of numbers. `pose` is the pose of the body if they are in world axes, otherwise empty.
     ///
     /// # Errors
     /// An invalid number.
@@ -162,7 +162,7 @@ impl Break {
         object
     }
 
-    /// The motions afterwards: velocity and angular velocity of each fragment, and of the striker if there is one.
+    /// Velocity and angular velocity of each fragment after the break, and of the striker if there is one.
     pub fn motions(&self, pose: &[f64], motion: &[f64], striker: &[f64]) -> Vec<f64> {
         plain::motions(self.body.asset(), &self.fracture, pose, motion, striker)
     }

@@ -1,7 +1,7 @@
-//! Bodies that break for physical reasons, for JavaScript.
+//! Physically based brittle fracture for JavaScript.
 //!
-//! [`plain`] is the package's function in plain numbers; it is the same on every machine. In a browser or in Node the module `bindings` gives it to
-//! the package's script, which is the users' interface: `package/index.d.ts` describes it.
+//! [`plain`] implements the package with plain numbers, on every platform. In a browser or in Node the module `bindings` exports it to the script of
+//! the package, which is the public interface, described by `package/index.d.ts`.
 
 #[cfg(target_arch = "wasm32")]
 pub mod bindings;

@@ -1,4 +1,4 @@
-//! Contacts, drawn meshes, colliders and motions as rows of numbers.
+//! Contacts, render meshes, colliders and motions as rows of numbers.
 
 use frangible::glam::{DMat3, DQuat, DVec3, Vec3};
 use frangible::internals::mesh::{merged_parts, thinned};
@@ -32,16 +32,16 @@ fn double(numbers: &[f64]) -> DVec3 {
     DVec3::new(numbers[0], numbers[1], numbers[2])
 }
 
-/// A kind of body, ready to be broken; its strength scatters as its material's does.
+/// Makes a kind of body with the scatter of strength of its material.
 ///
 /// # Errors
-/// An asset whose arrays do not fit together, or with an invalid number.
+/// An asset with inconsistent arrays or an invalid number.
 pub fn kind(asset: Asset) -> Result<Breakable, InputError> {
     let fields = Fields::of_material(&asset.material);
     Breakable::new(asset)?.with_fields(fields)
 }
 
-/// Contacts in the body frame, of rows of [`CONTACT`] numbers.
+/// Converts rows of [`CONTACT`] numbers to contacts in the body frame.
 #[must_use]
 pub fn contacts(rows: &[f64]) -> Vec<Contact> {
     let contact = |row: &[f64]| {
@@ -60,7 +60,7 @@ pub fn contacts(rows: &[f64]) -> Vec<Contact> {
     rows.chunks_exact(CONTACT).map(contact).collect()
 }
 
-/// A mesh to draw, vertices shared where position, normal and texture coordinates are.
+/// A render mesh. Vertices with equal position, normal and texture coordinates are shared.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Drawn {
     /// Positions, three numbers per vertex, m.
@@ -69,9 +69,9 @@ pub struct Drawn {
     pub normals: Vec<f32>,
     /// Texture coordinates, two per vertex.
     pub uvs: Vec<f32>,
-    /// Three per triangle, counter-clockwise seen from outside; those of the body's own outside first.
+    /// Three indices per triangle, counter-clockwise seen from outside; those of the body's original surface first.
     pub indices: Vec<u32>,
-    /// Number of indices that belong to the body's own outside; the rest are crack faces.
+    /// Number of indices that belong to the body's original surface; the rest are crack faces.
     pub outer_indices: usize,
 }
 
@@ -102,7 +102,7 @@ impl Drawn {
         sheet.drawn
     }
 
-    /// A fragment, in its own frame. Cracks that did not part it are drawn from both sides.
+    /// The surface of a fragment, in its own frame. Cracks inside it are drawn from both sides.
     #[must_use]
     pub fn fragment(fragment: &Fragment) -> Self {
         match &fragment.render {
@@ -228,8 +228,9 @@ fn hulls(parts: Vec<&[Vec3]>) -> Vec<Vec<f32>> {
         .collect()
 }
 
-/// The motions after a break: a row of [`MOTION`] numbers for each fragment, and one for the striker where there is one. `pose` and
-/// `motion` are the body's just before, `striker` [`STRIKER`] numbers or none. Momentum and angular momentum stay, energy does not rise.
+/// Computes the motions after a break: a row of [`MOTION`] numbers for each fragment, and one for the striker if there is one. `pose` and `motion`
+/// are those of the body just before the break; `striker` has [`STRIKER`] numbers or is empty. Momentum and angular momentum are conserved;
+/// energy does not increase.
 #[must_use]
 pub fn motions(
     asset: &Asset,
@@ -304,7 +305,7 @@ pub fn motions(
     rows
 }
 
-/// Rows of contacts in world axes, in the frame of a body at this [`POSE`].
+/// Transforms rows of contacts from world axes to the frame of a body at this [`POSE`].
 pub fn to_body_frame(rows: &mut [f64], pose: &[f64]) {
     let at = double(pose);
     let back = DQuat::from_array([3, 4, 5, 6].map(|i| pose[i])).inverse();

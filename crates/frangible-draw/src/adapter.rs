@@ -1,16 +1,16 @@
-//! Is there anything to draw with?
+//! Detection of the graphics adapter.
 
 use std::sync::OnceLock;
 
 use crate::DrawError;
 
-/// Returns true if there is a graphics adapter, in hardware or in software.
+/// Returns true if there is a hardware or software graphics adapter.
 #[must_use]
 pub fn has_adapter() -> bool {
     texture_limit().is_ok()
 }
 
-/// Returns true if the adapter is a program that draws with the processor.
+/// Returns true if the adapter renders in software on the CPU.
 #[must_use]
 pub fn is_software() -> bool {
     adapter().is_some_and(|adapter| adapter.software)
@@ -27,9 +27,9 @@ pub(crate) fn texture_limit() -> Result<u32, DrawError> {
         .ok_or(DrawError::NoAdapter)
 }
 
-/// Begins the program anew with `XDG_RUNTIME_DIR` set, where it is not, on Linux: the graphics drivers' library for Wayland
-/// complains four times of its absence before anything else is said. A folder that does not exist will do, since there is no
-/// Wayland then. For the first line of a program: what was done before is done once more.
+/// On Linux, restarts the program with `XDG_RUNTIME_DIR` set if it is not, because the Wayland library of the graphics drivers otherwise prints
+/// four warnings. The folder need not exist, since there is no Wayland in that case. Call it first in `main`, because everything before it
+/// is executed twice.
 pub fn quiet_the_drivers() {
     #[cfg(target_os = "linux")]
     {

@@ -1,4 +1,4 @@
-//! A camera that stays where it is put.
+//! A fixed camera.
 
 use frangible_recording::View;
 use frangible_recording::glam::{Mat4, Vec3};
@@ -8,7 +8,7 @@ use kiss3d::glamx::Pose3;
 use kiss3d::glamx::glam::camera::rh::proj::directx;
 use kiss3d::window::Canvas;
 
-/// A [`View`], in the units of the stage.
+/// A camera with a fixed [`View`], in the units of the stage.
 pub struct StillCamera {
     eye: Vec3,
     view: Pose3,
@@ -18,7 +18,7 @@ pub struct StillCamera {
 }
 
 impl StillCamera {
-    /// `aspect` is the width of the picture over its height.
+    /// Makes a camera for a view; `aspect` is the width of the picture over its height.
     #[must_use]
     pub fn new(view: &View, aspect: f32) -> Self {
         let distance = view.eye.distance(view.target);

@@ -1,4 +1,4 @@
-//! The renderer for a canvas of a page.
+//! The renderer for a canvas of a web page.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -12,11 +12,11 @@ use crate::DrawError;
 /// Complaints of the driver that are written down; more say nothing new.
 const MOST_COMPLAINTS: u32 = 20;
 
-/// Opens a window in the canvas of this identifier, drawn by WebGPU or else by WebGL 2. With `smooth` edges a software renderer takes most of its
-/// time for them.
+/// Opens a window in the canvas with this identifier, drawn with WebGPU or else WebGL 2. `smooth` turns on antialiasing, which takes most of the
+/// time of a software renderer.
 ///
 /// # Errors
-/// No such canvas; neither WebGPU nor WebGL 2.
+/// An unknown canvas, or neither WebGPU nor WebGL 2.
 pub async fn open_canvas(id: &str, smooth: bool) -> Result<Window, DrawError> {
     let document = web_sys::window().and_then(|window| window.document());
     let canvas = document.and_then(|document| document.get_element_by_id(id));

@@ -1,4 +1,4 @@
-//! A surface coloured by a number, with a bar that explains the colours.
+//! A surface coloured by a quantity, with a colour bar.
 
 use frangible_photo::{PhotoError, Picture};
 use frangible_recording::View;
@@ -11,18 +11,18 @@ use crate::mode_sheet::check_values;
 use crate::renderer::{Label, Shot, Subject, draw};
 use crate::{DrawError, Raster};
 
-/// A surface to draw, coloured by a number.
+/// A surface to draw, coloured by a quantity.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ColoredSurface {
     /// Vertices, m.
     pub positions: Vec<Vec3>,
     /// Vertices of each triangle, counter-clockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
-    /// Value that colours each vertex, clamped to 0..=1.
+    /// Value of each vertex for its colour, clamped to 0..=1.
     pub values: Vec<f32>,
     /// Dark lines on it.
     pub lines: Vec<SurfaceLine>,
-    /// Lines of text in the upper left corner, one below the other.
+    /// Lines of text in the upper left corner.
     pub captions: Vec<String>,
     /// Labels of the two ends of the colour scale, and of its quantity.
     pub legend: [String; 3],
@@ -38,7 +38,7 @@ impl Raster {
     /// Draws a coloured surface on white.
     ///
     /// # Errors
-    /// [`DrawError::BadField`] where its lists do not fit together or hold NaN, else as [`Raster::frame`].
+    /// [`DrawError::BadField`] if its lists do not match or contain NaN; otherwise the errors of [`Raster::frame`].
     pub fn colored_frame(
         &self,
         surface: &ColoredSurface,

@@ -3,7 +3,7 @@
 use frangible_photo::PhotoError;
 use thiserror::Error;
 
-/// Error that keeps a picture from being drawn.
+/// Error of drawing a picture.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum DrawError {

@@ -1,6 +1,6 @@
-//! A surface coloured by a number at each vertex, as a kiss3d scene.
+//! A surface coloured by a value at each vertex, as a kiss3d scene.
 //!
-//! Numbers become colours in a texture, since kiss3d has no colours at vertices.
+//! The colours are stored in a texture, because kiss3d has no vertex colours.
 
 use std::cell::RefCell;
 use std::rc::Rc;

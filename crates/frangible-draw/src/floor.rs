@@ -1,4 +1,4 @@
-//! The floor, with its shadows painted on.
+//! The floor, with its shadows as a texture.
 
 use std::cell::RefCell;
 use std::rc::Rc;

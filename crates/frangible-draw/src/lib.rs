@@ -1,12 +1,11 @@
-//! Drawing by the graphics driver: frames of films, shapes of vibration, and the stage in a window.
+//! Drawing with the graphics driver: frames of films, vibration mode shapes, and the stage in a window.
 //!
-//! [`Raster`] draws frames of a [`Recording`](frangible_recording::Recording) in a twentieth of the time that
-//! `frangible_photo` takes to follow light, [`mode_sheet`] shapes of vibration, coloured by a number.
-//! [`LiveStage`] draws the same stage into a window, over and over.
+//! [`Raster`] draws frames of a [`Recording`](frangible_recording::Recording) in a twentieth of the time that `frangible_photo` takes for
+//! path tracing; [`mode_sheet`] draws mode shapes coloured by a quantity; [`LiveStage`] continuously draws the same stage into a window.
 //!
-//! Drawing takes a graphics driver but no display: a software driver such as Mesa's lavapipe will do. [`has_adapter`] returns true if there is one;
-//! without it everything here returns [`DrawError::NoAdapter`]. On one machine the same recording gives the same picture. In a browser there is only
-//! the stage in a window.
+//! Drawing requires a graphics driver but no display; a software driver such as Mesa's lavapipe suffices. [`has_adapter`] returns true if there is
+//! one; without it, all functions return [`DrawError::NoAdapter`]. On the same machine the same recording gives the same picture. In a browser,
+//! only the stage in a window is available.
 
 // Code for pictures is unused on a page.
 #![cfg_attr(target_family = "wasm", allow(dead_code))]

@@ -1,4 +1,4 @@
-//! The stage in a window: the lights, looks and floor of the pictures, drawn over and over while things move.
+//! The stage in a window: the lights, materials and floor of the pictures, drawn continuously.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -20,30 +20,30 @@ use crate::field::{dress_in_values, palette_texture, texel};
 use crate::floor::{Laid, add_floor, texels};
 use crate::stage::{add_lights, dress};
 
-/// Looks of a [`LiveMesh`].
+/// Appearance of a [`LiveMesh`].
 #[derive(Clone, Debug, PartialEq)]
 pub enum Looks {
     /// A surface as in the pictures.
     Surface(SurfaceMaterial),
     /// Coloured by its values.
     Values,
-    /// Edges only, of this linear red, green, blue.
+    /// Edges only, in this linear red, green and blue.
     Edges([f32; 3]),
 }
 
-/// Triangles of one look.
+/// Triangles with the same appearance.
 pub struct LiveMesh<'a> {
-    /// Looks of the triangles.
+    /// Appearance of the triangles.
     pub looks: &'a Looks,
     /// Vertices, m.
     pub positions: &'a [Vec3],
     /// Unit normals, one per vertex.
     pub normals: &'a [Vec3],
-    /// Number of 0..=1 for each vertex, for [`Looks::Values`].
+    /// Value from 0 to 1 of each vertex, for [`Looks::Values`].
     pub values: &'a [f32],
     /// Vertices of each triangle.
     pub faces: &'a Arc<Vec<[u32; 3]>>,
-    /// Changes when the vertices of the same triangles change; 0 if nobody keeps count.
+    /// Number that changes when the vertices change; 0 if changes are not tracked.
     pub stamp: u64,
 }
 
@@ -57,7 +57,7 @@ struct Actor {
     node: SceneNode3d,
 }
 
-/// A lit stage in a window, its lights and units chosen for one view.
+/// A lit stage in a window, with lights and units for one view.
 pub struct LiveStage {
     units: StageUnits,
     scene: SceneNode3d,
@@ -68,7 +68,7 @@ pub struct LiveStage {
     solid: bool,
 }
 
-/// Transform from the world to the stage, for code that has no stage at hand.
+/// Transform from the world to the stage, usable without a stage.
 #[derive(Clone, Copy)]
 pub struct Place {
     units: StageUnits,
@@ -76,7 +76,7 @@ pub struct Place {
 }
 
 impl Place {
-    /// The place of a stage that is lit for this view.
+    /// The transform of a stage for this view.
     #[must_use]
     pub fn of(view: &View) -> Self {
         let units = StageUnits::of(view);
@@ -88,7 +88,7 @@ impl Place {
 }
 
 impl LiveStage {
-    /// An empty stage, lit for this view; furnishes the window.
+    /// Makes an empty stage with lights for this view, and sets up the window.
     #[must_use]
     pub fn new(window: &mut Window, view: &View) -> Self {
         furnish(window);
@@ -106,12 +106,12 @@ impl LiveStage {
         }
     }
 
-    /// Scene to draw.
+    /// The scene to draw.
     pub fn scene(&mut self) -> &mut SceneNode3d {
         &mut self.scene
     }
 
-    /// Sets the window for the contents of the stage, and returns the view in stage units. The haze keeps its distance from the view's target.
+    /// Sets up the window for the contents of the stage, and returns the view in stage units. The haze keeps its distance from the target of the view.
     pub fn look(&self, window: &mut Window, view: &View) -> View {
         // As in the pictures: a map gives glass the shadow of clay, and colours that stand for numbers want none.
         window.set_shadows_enabled(self.solid);
@@ -123,14 +123,14 @@ impl LiveStage {
         view
     }
 
-    /// A point of the world, m, on the stage.
+    /// Transforms a point of the world, m, to the stage.
     #[must_use]
     pub fn point(&self, world: Vec3) -> Vec3 {
         self.units.point(world)
     }
 
-    /// Shows these meshes and no others. Of those that were there at the last call with the same faces and looks only the
-    /// vertices are uploaded, and nothing where the stamp is the same.
+    /// Shows exactly these meshes. For meshes with the same faces and appearance as at the last call, only the vertices are uploaded, or nothing
+    /// if the stamp is unchanged.
     pub fn show<'a>(&mut self, meshes: impl Iterator<Item = LiveMesh<'a>>, wireframe: bool) {
         self.solid = true;
         let mut before = std::mem::take(&mut self.actors);
@@ -201,7 +201,7 @@ impl LiveStage {
         }
     }
 
-    /// Lays the floor with its shadow, in the place of the one there was.
+    /// Sets the floor with its shadow, replacing the previous one.
     pub fn lay_floor(&mut self, shadow: Option<&LiveShadow>) {
         if let Some(mut old) = self.floor.take() {
             old.remove();
@@ -225,7 +225,7 @@ impl LiveStage {
         }
     }
 
-    /// Number of draw calls in a frame: things and floor, without the text over them.
+    /// Number of draw calls per frame, for objects and floor without text.
     #[must_use]
     pub fn draw_calls(&self) -> usize {
         self.actors.len() + usize::from(self.floor.is_some())
@@ -260,7 +260,7 @@ impl Actor {
     }
 }
 
-/// Something that shades the floor: triangles of one surface.
+/// Triangles of one surface that cast a shadow on the floor.
 pub struct ShadowCaster<'a> {
     /// Its surface.
     pub surface: &'a SurfaceMaterial,
@@ -270,7 +270,7 @@ pub struct ShadowCaster<'a> {
     pub faces: &'a [[u32; 3]],
 }
 
-/// The floor's shadow, computed: it may come from another thread.
+/// A computed shadow of the floor, which may come from another thread.
 pub struct LiveShadow {
     shadow: FloorShadow,
     texels: Vec<u8>,
@@ -279,15 +279,14 @@ pub struct LiveShadow {
 }
 
 impl LiveShadow {
-    /// Casts the shadow of these on a floor; a fine one takes a twentieth of a second to a second, one for things on the move a
-    /// twentieth of that.
+    /// Computes the shadow of these casters on a floor. A fine shadow takes 0.05 to 1 s, a coarse one for moving objects a twentieth of that.
     #[must_use]
     pub fn cast(place: Place, casters: &[ShadowCaster<'_>], floor: &Floor, fine: bool) -> Self {
         LiveCasting::begin(place, casters, floor, fine).finish()
     }
 }
 
-/// A shadow that is being cast bit by bit, where there is no other thread to do it.
+/// Incremental computation of a shadow, for programs without other threads.
 pub struct LiveCasting {
     casting: Casting,
     height: f32,
@@ -295,7 +294,7 @@ pub struct LiveCasting {
 }
 
 impl LiveCasting {
-    /// Begins the shadow that [`LiveShadow::cast`] casts at once.
+    /// Starts the computation of the shadow that [`LiveShadow::cast`] computes at once.
     #[must_use]
     pub fn begin(place: Place, casters: &[ShadowCaster<'_>], floor: &Floor, fine: bool) -> Self {
         let Place { units, key } = place;
@@ -321,13 +320,12 @@ impl LiveCasting {
         }
     }
 
-    /// Does a hundredth of the work of a fine shadow, or a twentieth of that of one for things on the move; false if all is
-    /// done.
+    /// Does a hundredth of the work of a fine shadow, or a twentieth of a coarse one. Returns false when it is complete.
     pub fn go_on(&mut self) -> bool {
         self.casting.go_on()
     }
 
-    /// The shadow.
+    /// Returns the shadow.
     #[must_use]
     pub fn finish(self) -> LiveShadow {
         let shadow = self.casting.finish();
@@ -340,13 +338,13 @@ impl LiveCasting {
     }
 }
 
-/// The colour of a value of 0..=1 on things drawn with [`Looks::Values`], sRGB.
+/// The sRGB colour of a value from 0 to 1 in [`Looks::Values`].
 #[must_use]
 pub fn value_color(value: f32) -> [u8; 3] {
     color_of(value)
 }
 
-/// Returns true if points and wireframes can be drawn in an open window. They need storage buffers, which WebGL 2 does not have.
+/// Returns true if points and wireframes can be drawn in an open window. They require storage buffers, which WebGL 2 lacks.
 #[must_use]
 pub fn has_storage_buffers() -> bool {
     let limits = kiss3d::context::Context::get().device.limits();

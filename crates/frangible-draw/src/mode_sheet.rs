@@ -1,4 +1,4 @@
-//! Shapes of vibration on one picture, coloured by a number.
+//! Vibration mode shapes on one picture, coloured by a quantity.
 
 use frangible_photo::{PhotoError, Picture};
 use frangible_recording::View;
@@ -11,14 +11,14 @@ use crate::field::Field;
 use crate::raster::Raster;
 use crate::renderer::{Label, Shot, Subject, draw};
 
-/// A shape of vibration to draw.
+/// A mode shape to draw.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ModeCell {
-    /// Vertices, displaced as they are to be drawn, m.
+    /// Displaced vertices, m.
     pub positions: Vec<Vec3>,
     /// Vertices of each triangle, counter-clockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
-    /// Value that colours each vertex, 0..=1.
+    /// Value of each vertex for its colour, 0..=1.
     pub values: Vec<f32>,
     /// Number and frequency of the mode, large, above the shape.
     pub caption: String,
@@ -70,12 +70,12 @@ const BAR: [u32; 4] = [34, 18, 260, 20];
 /// Width from which the lines of the legend stand beside the bar, and not below it, pixels.
 const BESIDE: u32 = 980;
 
-/// Draws the shapes row by row, all from one side and to one scale, and below them a bar of the colours from 0 to 1.
+/// Draws the shapes row by row, with the same view and scale, and a colour bar from 0 to 1 below them.
 ///
 /// # Errors
 ///
-/// [`PhotoError::EmptySheet`] without a cell or a column, [`DrawError::BadField`] for a cell whose lists do not fit
-/// together or hold NaN, else as [`Raster::new`].
+/// [`PhotoError::EmptySheet`] without a cell or a column, [`DrawError::BadField`] for a cell whose lists do not match or contain NaN; otherwise the
+/// errors of [`Raster::new`].
 pub fn mode_sheet(cells: &[ModeCell], options: &ModeSheetOptions) -> Result<Picture, DrawError> {
     let (width, height) = (options.cell_width, options.cell_height);
     let count = u32::try_from(cells.len()).unwrap_or(u32::MAX);

@@ -1,4 +1,4 @@
-//! Frames of films, by the graphics driver.
+//! Frames of films, drawn with the graphics driver.
 
 use frangible_photo::internals::moment_between;
 use frangible_photo::{PhotoError, Picture};
@@ -11,9 +11,9 @@ use crate::renderer::{SUPERSAMPLING, Shot, Subject, draw};
 /// The longest side of a picture, pixels.
 const LARGEST: u32 = 4096;
 
-/// Draws frames of one size by the graphics driver, in a twentieth of the time that following light takes.
+/// Renderer for frames of one size with the graphics driver, twenty times as fast as path tracing.
 ///
-/// All rasters of a process share one renderer, which starts with the first frame; that one takes about a second longer than the others.
+/// All rasters of a process share one renderer, which starts with the first frame; that frame takes about a second longer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Raster {
     width: u32,
@@ -45,11 +45,11 @@ impl Raster {
         (self.width, self.height)
     }
 
-    /// Draws a moment of a recording: a frame, or between two frames, where things are on their way from the one to the other.
+    /// Draws a recording at a frame, or interpolated between two frames.
     ///
     /// # Errors
     ///
-    /// [`PhotoError::Recording`] if the recording or the view is not sound, [`PhotoError::NoSuchFrame`] beyond its end,
+    /// [`PhotoError::Recording`] if the recording or the view is invalid, [`PhotoError::NoSuchFrame`] beyond its end,
     /// [`DrawError::Renderer`] if the renderer failed.
     pub fn frame(
         &self,

@@ -1,11 +1,8 @@
-//! The one thread that draws.
+//! The drawing thread.
 //!
-//! kiss3d keeps its graphics context in thread-local storage and tears it down
-//! with the last surface. Some of its caches outlive that and then point at
-//! nothing: a second surface on the same thread panics, and so does dropping
-//! one that never drew. So a single thread owns a single surface, resizes it as
-//! needed, and lives as long as the process. Should the renderer panic all the
-//! same, callers get an error.
+//! kiss3d keeps its graphics context in thread-local storage and destroys it with the last surface. Some of its caches outlive the context and
+//! then dangle: a second surface on the same thread panics, and so does dropping a surface that never drew. So a single thread owns a
+//! single surface, resizes it as needed, and lives as long as the process. If the renderer panics nevertheless, callers get an error.
 
 use std::sync::OnceLock;
 use std::sync::mpsc::{Sender, channel};

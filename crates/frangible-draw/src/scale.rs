@@ -1,4 +1,4 @@
-//! Four drawn pixels into one of the picture.
+//! Downscaling of four drawn pixels to one of the picture.
 
 use image::{Rgb, RgbImage};
 

@@ -1,13 +1,13 @@
-//! The evidence for `frangible`: nothing here is needed to break anything, and nothing here is published.
+//! Validation and benchmarks of `frangible`. Not needed at run time, and not published.
 //!
-//! The program `frangible-lab` runs it all and writes the pages in `docs`.
+//! The program `frangible-lab` runs them and writes the pages in `docs`.
 //!
-//! - [`verify`]: the physics against closed forms, published experiments and full analyses;
-//! - [`figures`]: the figures of the paper that the model is taken from, each claim with a verdict;
-//! - [`bench`](mod@bench): times, memory, counted instructions;
-//! - [`reference`](mod@reference): the paper's algorithms word for word, which the pipeline must agree with;
-//! - [`sound`]: struck and broken bodies, heard and drawn, beside closed forms and published spectra;
-//! - [`page`] and [`plot`]: the tables and the charts of all these pages.
+//! - [`verify`]: the physics, compared with closed-form solutions, published experiments and full analyses;
+//! - [`figures`]: the figures of the paper on which the model is based, with a verdict on each claim;
+//! - [`bench`](mod@bench): times, memory and instruction counts;
+//! - [`reference`](mod@reference): a literal implementation of the paper's algorithms, with which the pipeline must agree;
+//! - [`sound`]: the sound of struck and broken bodies, compared with closed-form solutions and published spectra;
+//! - [`page`] and [`plot`]: the tables and charts of these pages.
 
 pub mod bench;
 pub mod figures;

@@ -1,7 +1,7 @@
-//! Meshes made breakable, and pieces that break again, in JavaScript.
+//! Baking of meshes, and pieces that break again, for JavaScript.
 //!
-//! [`Wish`], [`bake`] and [`piece`] are plain; in a browser or in Node the module's functions of the same names hand numbers to them. The
-//! module also has all that the package's first module has, so that pieces break in the memory that they lie in.
+//! [`Wish`], [`bake`] and [`piece`] are plain Rust; in a browser or in Node the exported functions of the same names call them. The module also
+//! contains the first module of the package, so that pieces stay in the same memory.
 
 use frangible::glam::{Vec2, Vec3};
 use frangible::internals::asset::SaveOptions;
@@ -17,17 +17,17 @@ pub struct Wish {
     pub name: String,
     /// Material of the body.
     pub material: Material,
-    /// Longest side, m; 0: the mesh's unit is the metre.
+    /// Length of the longest side, m; 0: the mesh is in metres.
     pub size: f64,
-    /// Thickness of a wall along the mesh's surface, m; 0: the body is what the mesh encloses.
+    /// Thickness of a wall along the surface, m; 0: a solid body.
     pub wall: f64,
-    /// Wanted tetrahedra.
+    /// Requested number of tetrahedra.
     pub tetrahedra: usize,
-    /// Vibration modes to keep.
+    /// Number of vibration modes to keep.
     pub modes: usize,
 }
 
-/// A mesh as flat lists of numbers: three per vertex, three per triangle; normals and texture coordinates may be empty.
+/// Makes a mesh from flat lists of numbers: three per vertex, three per triangle; normals and texture coordinates may be empty.
 #[must_use]
 pub fn mesh(positions: &[f32], indices: &[u32], normals: &[f32], uvs: &[f32]) -> InputMesh {
     InputMesh {
@@ -57,7 +57,7 @@ pub fn mesh(positions: &[f32], indices: &[u32], normals: &[f32], uvs: &[f32]) ->
 /// Bakes a mesh. Returns the body, and the transform from the mesh's positions to the body's frame.
 ///
 /// # Errors
-/// A mesh that cannot be meant as a solid, walls too thin for the tetrahedra wanted, an invalid number.
+/// A mesh that does not describe a solid, walls too thin for the requested number of tetrahedra, an invalid number.
 pub fn bake(
     mesh: &InputMesh,
     wish: &Wish,
@@ -80,17 +80,17 @@ pub fn bake(
     Ok((asset, Similarity { scale, shift }))
 }
 
-/// A body as a file.
+/// Returns the contents of a `.frangible` file.
 #[must_use]
 pub fn file(asset: &Asset) -> Vec<u8> {
     asset.to_bytes_with(&SaveOptions::default())
 }
 
-/// A fragment as a body that breaks again, with its share of the weak points, strengths and cracks, and vibration modes of its own; none
-/// where there is no such fragment. `body`: the one that broke.
+/// Returns a fragment as a body that can break again, with its share of the weak points, strengths and cracks, and its own vibration modes;
+/// `None` for an unknown fragment. `body`: the body that broke.
 ///
 /// # Errors
-/// A fragment that is a crumb: too small for elements of its own.
+/// A fragment that is too small for a finite-element mesh.
 pub fn piece(body: &Body, fracture: &Fracture, number: usize) -> Result<Option<Body>, PieceError> {
     let portions = fracture.portions(body, |k, _| k == number);
     let Some(portion) = portions.into_iter().nth(number).flatten() else {
@@ -120,12 +120,12 @@ pub mod bindings {
 
     #[wasm_bindgen]
     impl Baked {
-        /// Its file.
+        /// Contents of its `.frangible` file.
         pub fn bytes(&mut self) -> Vec<u8> {
             std::mem::take(&mut self.bytes)
         }
 
-        /// Factor of the mesh's lengths.
+        /// Scale factor from the mesh to the body.
         pub fn scale(&self) -> f64 {
             self.scale
         }
@@ -136,7 +136,7 @@ pub mod bindings {
         }
     }
 
-    /// Bakes a mesh; `numbers`: size, wall, tetrahedra, modes; `tell(stage, share)` meanwhile.
+    /// Bakes a mesh. `numbers`: size, wall, tetrahedra, modes. Calls `tell(stage, share)` to report progress.
     ///
     /// # Errors
     /// Errors of [`bake`](super::bake), and a name that no material has.
@@ -173,7 +173,7 @@ pub mod bindings {
         })
     }
 
-    /// A fragment of a break as a body that breaks again; none of a crumb.
+    /// Returns a fragment of a break as a body that can break again; `None` if it is too small.
     #[wasm_bindgen]
     pub fn piece(found: &Break, number: usize) -> Option<WasmBody> {
         let piece = super::piece(found.body(), found.fracture(), number);

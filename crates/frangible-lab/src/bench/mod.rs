@@ -1,18 +1,18 @@
 //! Benchmarks of `frangible`.
 //!
-//! - [`table1`]: the bodies of Table 1 of Glondu, Marchal, Dumont 2012 (`[G12]`), in the paper's model and in ours, beside the
-//!   paper's times and those of the paper's algorithms word for word;
-//! - [`contacts`]: how many contacts a second are refused, and how long one takes at worst;
-//! - [`roofline`]: operations and bytes of the initiation against the machine's measured peaks;
-//! - [`haptic`]: a loop of 1 kHz that feels a body, and how long its ticks take;
-//! - [`shop`]: a thousand breakable things and a bull, and how long frames take;
-//! - [`again`]: scenes whose pieces break again, played as a game does, and how long frames take;
-//! - [`gallery`]: whole breaks of the gallery's bodies beside the project's goals;
+//! - [`table1`]: the bodies of Table 1 of Glondu, Marchal, Dumont 2012 (`[G12]`), with the paper's model and ours, compared with the
+//!   paper's times and with a literal implementation of its algorithms;
+//! - [`contacts`]: rate and worst-case time of rejected contacts;
+//! - [`roofline`]: operations and bytes of the initiation, compared with the measured peaks of the machine;
+//! - [`haptic`]: time per tick of a 1 kHz haptic loop;
+//! - [`shop`]: frame times of a scene with a thousand breakable objects;
+//! - [`again`]: frame times of scenes with pieces that break again;
+//! - [`gallery`]: whole breaks of the gallery's bodies, compared with the project's goals;
 //! - [`gpu`]: batches of impacts on the CPU and on a GPU;
-//! - [`memory`]: what a body takes in a file and in memory;
+//! - [`memory`]: size of bodies in files and in memory;
 //! - [`stages`]: single stages on a small body, for `cargo bench` and for counting instructions.
 //!
-//! [`page`] makes the sections of `docs/performance.md` of them.
+//! [`page`] writes the sections of `docs/performance.md`.
 
 pub mod again;
 pub mod cache;

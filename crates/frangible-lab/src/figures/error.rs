@@ -2,27 +2,27 @@
 
 use thiserror::Error;
 
-/// Error that keeps a figure from being made.
+/// Error of computing a figure.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum FigureError {
-    /// A name that no figure has.
+    /// An unknown figure.
     #[error("there is no figure `{name}`{hint}; figures: {known}")]
     UnknownFigure {
         /// The requested name.
         name: String,
-        /// The one that was probably meant, or nothing.
+        /// Hint with the most similar name, or empty.
         hint: String,
         /// All names.
         known: String,
     },
-    /// The material of a body.
+    /// An unknown material of a body.
     #[error(transparent)]
     Material(#[from] frangible::internals::UnknownMaterial),
-    /// The bake refused a body.
+    /// A body could not be baked.
     #[error("a body could not be baked: {0}")]
     Bake(#[from] frangible_bake::BakeError),
-    /// The pipeline refused an impact.
+    /// The fracture model rejected an impact.
     #[error(transparent)]
     Input(#[from] frangible::InputError),
     /// A scene could not be played.
@@ -34,7 +34,7 @@ pub enum FigureError {
     /// A still that could not be drawn.
     #[error(transparent)]
     Photo(#[from] frangible_photo::PhotoError),
-    /// Nothing broke where the figure needs pieces.
+    /// Nothing broke in a figure that shows pieces.
     #[error("nothing to show: {0}")]
     Nothing(&'static str),
 }

@@ -1,9 +1,9 @@
-//! Is the physics right? Cases with a known answer, run by `frangible-lab verify` and by the tests alike.
+//! Validation of the physics: cases with known answers, run by `frangible-lab verify` and by the tests.
 //!
-//! A [`Case`] computes something with the code that bakes and breaks, and compares it with a reference found by other
-//! means: a closed form, a published number, an integrator or a Ritz series of our own that shares no code with it.
-//! [`CASES`] lists them all; [`report`] makes text of what they found, [`plot`] pictures. [`experiments`] compares cracks
-//! and pieces with published experiments, which takes minutes; [`pieces`] the ways to find how a fragment vibrates.
+//! A [`Case`] computes a quantity with the production code and compares it with an independent reference: a closed-form solution, a published
+//! number, or our own integrator or Ritz series that shares no code with it. [`CASES`] lists them all; [`report`] writes the results as text,
+//! [`plot`] as pictures. [`experiments`] compares cracks and pieces with published experiments, which takes minutes; [`pieces`] compares methods
+//! for the vibration modes of fragments.
 
 mod blows;
 mod case;
@@ -29,11 +29,11 @@ use thiserror::Error;
 
 use crate::plot;
 
-/// Error that keeps a report from being made.
+/// Error of computing a report.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum VerifyError {
-    /// The bake, or the fracture code, refused the input of a case.
+    /// The bake or the fracture model rejected the input of a case.
     #[error("the case `{case}` could not be computed: {source}")]
     Bake {
         /// Name of the case.
@@ -41,7 +41,7 @@ pub enum VerifyError {
         /// Error of the bake.
         source: BakeError,
     },
-    /// A material that an experiment needs is not there.
+    /// A material of an experiment is missing.
     #[error("the material `{name}` is missing: {source}")]
     Material {
         /// Name of the preset.
@@ -49,7 +49,7 @@ pub enum VerifyError {
         /// Error of the material.
         source: UnknownMaterial,
     },
-    /// The fracture code refused the input of an experiment.
+    /// The fracture model rejected the input of an experiment.
     #[error("the experiment `{case}` could not be computed: {source}")]
     Impact {
         /// Name of the experiment.
@@ -57,7 +57,7 @@ pub enum VerifyError {
         /// Error of the fracture code.
         source: InputError,
     },
-    /// The ways to find how pieces vibrate could not be compared.
+    /// The methods for the modes of pieces could not be compared.
     #[error("the pieces could not be compared: {reason}")]
     Pieces {
         /// Reason of the failure.

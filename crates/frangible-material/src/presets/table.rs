@@ -200,7 +200,7 @@ const fn surface(
 
 const GLASS_NEW: Preset = surface(
     "glass-new",
-    "soda-lime glass with the surface that it left the factory with",
+    "soda-lime glass with its surface as it left the factory",
     "as `glass`, but for its surface: new float glass breaks at 70 to 100 MPa in slow bending tests, in the mean of series (not re-checked); \
      the lower end is taken. Where stress rises by 5.6e6 MPa/s it bears 1.85 times as much as where it rises by 2 MPa/s, as received \
      (ring on ring: Meyland et al., Glass Structures & Engineering, 10.1007/s40940-018-0089-2, abstract): 130 MPa. G_c = K²(1−ν²)/E = 7.5 J/m².",
