@@ -1,10 +1,10 @@
-//! Cracks that part nothing, as faces and lines to look at.
+//! Geometry for drawing partial cracks, which separate no piece.
 //!
-//! Such a crack is a surface without thickness within a body: whole from
-//! outside, and seen edge-on in a pane. So besides its faces there is a ridge
-//! along its border, as wide as a line that one sees in a picture and just
-//! higher than the surface. Where the border ends inside the body the ridge is
-//! inside too: a clear body shows how far the crack came.
+//! Such a crack is a surface without thickness inside a body: invisible from
+//! outside, and seen edge-on in a pane. Besides its faces, a ridge is therefore
+//! drawn along its border, wide enough to be seen as a line and slightly raised
+//! above the surface. The part of the border inside the body has a ridge too, so
+//! that a transparent body shows the extent of the crack.
 
 use std::collections::BTreeMap;
 

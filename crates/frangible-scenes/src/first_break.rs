@@ -1,4 +1,4 @@
-//! A scene up to its first break: the impact rather than the pieces.
+//! The first breaking impact of a scene.
 
 use std::collections::BTreeMap;
 
@@ -24,9 +24,9 @@ use crate::stage::{Stage, set_up};
 pub struct FirstBreak {
     /// The body's name.
     pub name: String,
-    /// The body before it, with the cracks that it had.
+    /// The body just before the impact, with any cracks it already had.
     pub body: Body,
-    /// Contacts that hit it, body frame.
+    /// Contacts of the impact, in the body frame.
     pub contacts: Vec<Contact>,
     /// Settings of the fracture model.
     pub config: FractureConfig,
@@ -38,11 +38,12 @@ pub struct FirstBreak {
     look_from: Vec3,
 }
 
-/// Plays the scene with its baked bodies until an impact breaks one of them; `progress` gets the share of its longest duration.
-/// None if nothing breaks.
+/// Runs the scene with its baked bodies until an impact breaks one of them; `progress` receives the elapsed fraction of the
+/// maximum duration.
+/// Returns `None` if nothing breaks.
 ///
 /// # Errors
-/// As [`play`](crate::play()).
+/// The errors of [`play`](crate::play()).
 pub fn first_break(
     scene: &Scene,
     baked: &[BakedBody],
@@ -122,9 +123,10 @@ fn found(
 }
 
 impl FirstBreak {
-    /// A still of each set of pieces, the body as it lay when it was hit, every piece moved away from its middle by the share
-    /// `apart` of its distance; the whole body for an empty set. All are seen from the same place, so that they can stand side by
-    /// side.
+    /// Makes a still of each set of pieces in an exploded view, or of the whole body for an empty set.
+    ///
+    /// The body has the pose it had at the impact, and each piece is moved away from the body's centre by `apart` times its
+    /// distance from it. All stills share one camera, so that they can be shown side by side.
     #[must_use]
     pub fn stills(&self, sets: &[&[Fragment]], apart: f32) -> Vec<Recording> {
         let mut stills: Vec<Recording> = sets.iter().map(|set| self.still(set, apart)).collect();
@@ -139,7 +141,7 @@ impl FirstBreak {
         stills
     }
 
-    /// A still of the whole body with an arrow in the direction of the impulse, its tip where it acts; seen from the same place as `like`.
+    /// Makes a still of the whole body with an arrow along the impulse, its tip at the point of impact, seen with the camera of `like`.
     #[must_use]
     pub fn still_of_impact(&self, like: &Recording) -> Recording {
         let mut still = self.still(&[], 0.0);

@@ -1,7 +1,8 @@
-//! Sound of a run: from its recording to samples.
+//! Computes the sound of a run from its recording.
 //!
-//! Each node is a body of the synthesiser. The recording has the causes of its sound: the force of each blow as the fracture found it, the cracks
-//! with their times and energy, and the touches of pieces, of which the impulse is known and the duration is Hertz'.
+//! Each node of the recording is a body of the synthesiser. The recording supplies the sources of sound: the contact force of each
+//! blow as computed by the fracture model, the cracks with their times and energies, and the contacts of pieces with their impulses;
+//! the duration of these contacts follows from Hertz's theory.
 
 mod energy;
 mod live;
@@ -26,18 +27,18 @@ const RINGS_ON: f64 = 6.0;
 /// Sound of a run.
 #[derive(Clone, Debug)]
 pub struct Sounded {
-    /// Pressures, Pa, left and right in turn.
+    /// Sound pressure, Pa, left and right interleaved.
     pub samples: Vec<f32>,
     /// Settings of the synthesis.
     pub config: SynthConfig,
     /// Report of the synthesiser.
     pub report: SynthReport,
-    /// Wall-clock time of making bodies ready to sound, and of the samples, s.
+    /// Wall-clock times of preparing the bodies and of computing the samples, s.
     pub seconds: [f64; 2],
 }
 
 impl Sounded {
-    /// The bytes of a WAV file, as loud as fits: its full scale is the loudest of the samples, [`Sounded::loudest`].
+    /// Encodes the sound as a WAV file, normalized so that full scale is the peak pressure, [`Sounded::loudest`].
     ///
     /// # Errors
     /// The errors of [`wav`].
@@ -50,7 +51,7 @@ impl Sounded {
         )
     }
 
-    /// The loudest of the samples, Pa.
+    /// Returns the peak pressure, Pa.
     #[must_use]
     pub fn loudest(&self) -> f64 {
         let loudest = self
@@ -60,20 +61,20 @@ impl Sounded {
         f64::from(loudest)
     }
 
-    /// Its duration, s.
+    /// Returns the duration of the sound, s.
     #[must_use]
     pub fn duration(&self) -> f64 {
         self.samples.len() as f64 / (self.config.rate * self.config.listener.channels as f64)
     }
 
-    /// Level of the loudest of the samples, dB over 20 µPa.
+    /// Returns the peak sound pressure level, dB re 20 µPa.
     #[must_use]
     pub fn peak_level(&self) -> f64 {
         20.0 * (self.loudest() / 2e-5).max(1e-9).log10()
     }
 }
 
-/// Settings for listening to a run: with the ears where the camera of its recording is, above the floor of its scene.
+/// Returns settings for a listener at the recording's camera, above the floor of the scene.
 #[must_use]
 pub fn sound_config(run: &Run, scene: &Scene) -> SynthConfig {
     config_at(&run.recording.camera, scene)
@@ -103,21 +104,21 @@ fn floor_material(scene: &Scene) -> Option<Material> {
         .and_then(|name| Material::preset(name).ok())
 }
 
-/// Sources of sound in a run that are heard.
+/// Selection of the sound sources of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sources {
-    /// The forces of blows, on struck bodies and strikers.
+    /// Contact forces of blows, on struck bodies and strikers.
     pub blows: bool,
     /// Cracks.
     pub cracks: bool,
-    /// Touches of pieces.
+    /// Contacts of pieces.
     pub touches: bool,
-    /// Slides.
+    /// Sliding friction.
     pub slides: bool,
 }
 
 impl Sources {
-    /// All of it.
+    /// All sources.
     pub const ALL: Self = Self {
         blows: true,
         cracks: true,
@@ -129,15 +130,15 @@ impl Sources {
 /// Computes the sound of a run with these settings.
 ///
 /// # Errors
-/// A number of the configuration, or of the recording, that cannot be used.
+/// A value of the configuration or of the recording is out of range.
 pub fn sound(run: &Run, scene: &Scene, config: &SynthConfig) -> Result<Sounded, SoundError> {
     sound_of(run, scene, config, Sources::ALL)
 }
 
-/// Computes the sound of these sources of a run.
+/// Computes the sound of selected sources of a run.
 ///
 /// # Errors
-/// A number of the configuration, or of the recording, that cannot be used.
+/// A value of the configuration or of the recording is out of range.
 pub fn sound_of(
     run: &Run,
     scene: &Scene,

@@ -1,4 +1,4 @@
-//! Numbers of a contact for the panels, as plain data that reaches a window in any place.
+//! Numbers of a contact for the panels, as plain data that can be sent to the window's thread.
 
 use frangible::glam::Vec3;
 use frangible_compare::Method;
@@ -9,36 +9,36 @@ use crate::knobs::{KNOBS, Settings};
 use crate::methods::Methods;
 use crate::shown::Compared;
 
-/// The last contact that mattered, in numbers.
+/// Numbers of the last significant contact.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BlowNumbers {
-    /// Name of the body that was hit.
+    /// Name of the struck body.
     pub name: String,
     /// Simulated time, s.
     pub time: f64,
     /// True if it broke.
     pub broke: bool,
-    /// Pieces it left; 1 where it held.
+    /// Number of pieces; 1 if the body did not break.
     pub pieces: usize,
-    /// Their masses, kg; none where it held.
+    /// Masses of the pieces, kg; empty if the body did not break.
     pub masses: Vec<f64>,
     /// Position of the first contact in the world, m.
     pub point: Option<Vec3>,
     /// Impulse of all contacts, N·s.
     pub impulse: f64,
-    /// Speed of the fastest contact, m/s.
+    /// Largest approach speed of the contacts, m/s.
     pub speed: f64,
-    /// Length of the contact, s.
+    /// Duration of the contact, s.
     pub contact_duration: f64,
-    /// Frequency of the mode that was excited most, Hz.
+    /// Frequency of the most excited mode, Hz.
     pub most_excited_frequency: f64,
     /// R_c of the weakest weak point, Pa.
     pub strength: f64,
-    /// No tension was larger, Pa.
+    /// Upper bound of the tensile stress, Pa.
     pub stress_bound: f64,
-    /// Largest tension that was seen, Pa.
+    /// Largest computed tensile stress, Pa.
     pub peak_stress: f64,
-    /// Cracks that started.
+    /// Number of cracks that started.
     pub cracks: usize,
     /// Area of the cracks, one side, m².
     pub crack_area: f64,
@@ -46,11 +46,11 @@ pub struct BlowNumbers {
     pub first_crack_time: f64,
     /// Kinetic energy of the approach, J.
     pub approach_energy: f64,
-    /// Strain energy at its peak, J.
+    /// Peak strain energy, J.
     pub peak_strain_energy: f64,
-    /// Energy that the cracks took, J.
+    /// Energy absorbed by the cracks, J.
     pub fracture_energy: f64,
-    /// Energy taken from the motion for them, J.
+    /// Energy removed from the motion to pay for the cracks, J.
     pub energy_paid: f64,
     /// Computing times of initiation, cracks and pieces, s.
     pub seconds: [f64; 3],
@@ -98,7 +98,7 @@ impl From<&Blow> for BlowNumbers {
     }
 }
 
-/// A number over time.
+/// Time series of a quantity.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Series {
     /// Name of the quantity.
@@ -107,37 +107,37 @@ pub struct Series {
     pub points: Vec<[f64; 2]>,
 }
 
-/// A contact over time.
+/// Time series of a contact.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Course {
-    /// The contact's force, N.
+    /// Contact force, N.
     pub force: Series,
-    /// The modes that strain the body most: amplitude × the largest stress of a unit of it, Pa.
+    /// The modes with the largest stresses: amplitude times the peak stress at unit amplitude, Pa.
     pub modes: Vec<Series>,
-    /// Largest principal tension anywhere in the body, Pa.
+    /// Largest first principal stress in the body, Pa.
     pub tension: Series,
     /// R_c of the weakest weak point, Pa.
     pub strength: f64,
     /// Largest of [`Course::tension`], Pa.
     pub peak_tension: f64,
-    /// Cracks that started.
+    /// Number of cracks that started.
     pub cracks: usize,
-    /// Times at which the first of them started and the last one grew, s after the contact began; zeros without one.
+    /// Start of the first crack and end of the growth of the last one, s after the start of contact; zeros without cracks.
     pub cracking: [f64; 2],
-    /// Length of the motion, or until the last crack grew, s.
+    /// Time to the end of the motion or of the last crack's growth, s.
     pub duration: f64,
     /// Frequency, Hz, and damping, 1/s, of each mode of the body.
     pub swings: Vec<[f64; 2]>,
 }
 
 impl Course {
-    /// Time of a share of the motion, s.
+    /// Returns the time at a fraction of the motion, s.
     #[must_use]
     pub fn time(&self, share: f64) -> f64 {
         share.clamp(0.0, 1.0) * self.duration
     }
 
-    /// Time of a share of the subject's duration, s: the cracks are complete before the motion ends.
+    /// Returns the time at a fraction of the subject's duration, s; the cracks are complete before the motion ends.
     #[must_use]
     pub fn moment(&self, subject: Subject, share: f64) -> f64 {
         match subject {

@@ -1,4 +1,4 @@
-//! State of a session as a window shows it.
+//! State of a session, as displayed in a window.
 
 use std::sync::Arc;
 
@@ -13,38 +13,38 @@ use crate::numbers::{BlowNumbers, ComparedNumbers, Course, KnobValues, OutcomeNu
 use crate::picture::Picture;
 use crate::times::Spread;
 
-/// A session's state at one moment, to be drawn without holding up the session.
+/// Snapshot of a session's state, which can be drawn without blocking the session.
 #[derive(Clone, Debug, Default)]
 pub struct Shown {
     /// Commands carried out or refused so far.
     pub commands: u64,
-    /// True while a command's work goes on elsewhere.
+    /// True while a command runs in the background.
     pub busy: bool,
-    /// Name of the scene; empty before the first.
+    /// Name of the scene; empty before the first scene is loaded.
     pub scene: String,
-    /// Description of the scene, in a line.
+    /// One-line description of the scene.
     pub summary: String,
-    /// Number of times that a scene was set up; with each, the camera may be elsewhere.
+    /// Number of scene set-ups so far; the camera may jump at each.
     pub starts: u64,
     /// Initial view of the scene.
     pub home: View,
-    /// Part of the scene that the camera should have in view now.
+    /// Part of the scene that the camera should frame.
     pub focus: Focus,
     /// Simulated time, s.
     pub time: f64,
     /// Steps taken.
     pub steps: u64,
-    /// True if the clock stands.
+    /// True if the simulation is paused.
     pub paused: bool,
-    /// Simulated seconds per second.
+    /// Simulated seconds per second of real time.
     pub slow_motion: f64,
-    /// Volume, 0..=1, and true if it is muted; `None` if nobody listens.
+    /// Volume, 0..=1, and true if it is muted; `None` without sound output.
     pub sound: Option<(f64, bool)>,
     /// Bodies that have not broken.
     pub whole: usize,
-    /// Pieces there are.
+    /// Number of pieces.
     pub pieces: usize,
-    /// Hash of the bits of all positions, motions and masses; 0 without a scene.
+    /// Hash of the bits of all positions, velocities and masses; 0 without a scene.
     pub fingerprint: u64,
     /// Breaks that can be undone.
     pub undoable: usize,
@@ -52,94 +52,94 @@ pub struct Shown {
     pub ball: BallSpec,
     /// Hammer to swing.
     pub hammer: HammerSpec,
-    /// Tool that a click uses.
+    /// Active tool of the mouse.
     pub tool: Tool,
-    /// The bake that runs.
+    /// Progress of the running bake.
     pub bake: Option<BakeShown>,
-    /// The film or still that is being made.
+    /// Progress of the film or still being rendered.
     pub filming: Option<BakeShown>,
-    /// Seconds of film that are kept.
+    /// Length of the recorded footage, s.
     pub reel: f64,
     /// True while a contact is being analysed.
     pub analysing: bool,
-    /// The last message, and true if it is a complaint.
+    /// The last message, and true if it is an error.
     pub message: Option<(String, bool)>,
     /// Picture to draw.
     pub picture: Arc<Picture>,
     /// Subject of the view.
     pub subject: Subject,
-    /// Moment of the contact to look at, 0..=1.
+    /// Displayed moment of the contact, as a fraction of its duration, 0..=1.
     pub scrub: f64,
-    /// Factor by which deformations are enlarged in the picture.
+    /// Magnification of displayed deformations.
     pub exaggeration: f64,
-    /// Spread of the drawn pieces, as a share of their distance from their parent's middle.
+    /// Exploded view: displacement of each piece, as a fraction of its distance from its parent's centre.
     pub explode: f64,
-    /// Marks that are shown.
+    /// Visible marks.
     pub marks: Vec<Mark>,
-    /// Mode to look at, from 1.
+    /// Displayed mode, from 1.
     pub mode: usize,
-    /// The last contact that mattered.
+    /// Data of the last significant contact.
     pub blow: Option<BlowNumbers>,
-    /// Course of the last contact over time, once that was asked for.
+    /// Time series of the last contact, once requested.
     pub course: Option<Arc<Course>>,
-    /// Stress at the end of the colour bar, Pa; it begins at 0.
+    /// Upper limit of the colour bar, Pa; its lower limit is 0.
     pub largest_color: Option<f64>,
-    /// Thing that is selected.
+    /// Selected object.
     pub selection: Option<Selection>,
     /// Two outcomes of one impact.
     pub compared: Option<ComparedNumbers>,
-    /// The methods that the last impact is shown by, once that was asked for.
+    /// Fracture methods compared for the last impact, once requested.
     pub chosen: Option<Vec<Method>>,
-    /// Outcomes of those methods, as far as they have come.
+    /// Outcomes of those methods computed so far.
     pub methods: Vec<OutcomeNumbers>,
-    /// Positions of the knobs.
+    /// Values of the knobs.
     pub knobs: Option<KnobValues>,
-    /// True if the knobs were turned since the scene was set up.
+    /// True if a knob has been changed since the scene was set up.
     pub turned: bool,
     /// Counts of the contacts so far, by outcome.
     pub contacts: LoadCounts,
     /// Wall-clock times of the parts of the last break's step.
     pub break_step: StepTimings,
-    /// Processor time of the session's thread for each of the last pictures, s; steps are not in it.
+    /// CPU time of the session's thread for each recent picture, s, without simulation steps.
     pub publishing: Spread,
 }
 
-/// Something to have in view: the camera turns to it when the number is another.
+/// Target of the camera, which turns to it when `number` changes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Focus {
-    /// Counts the changes.
+    /// Number of changes of the target so far.
     pub number: u64,
-    /// Its middle and half its width and height, m; `None`: the scene, from where it was seen in the beginning.
+    /// Centre and half-extents (width, height) of the target, m; `None` for the whole scene from its initial view.
     pub on: Option<(Vec3, [f32; 2])>,
 }
 
 impl Shown {
-    /// Returns true if a mark is shown.
+    /// Returns true if a mark is visible.
     #[must_use]
     pub fn shows(&self, mark: Mark) -> bool {
         self.marks.contains(&mark)
     }
 }
 
-/// A bake that runs.
+/// Progress of a background task.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BakeShown {
-    /// Its stage.
+    /// Current stage.
     pub what: String,
-    /// Share of the stage that is done, 0..=1.
+    /// Completed fraction of the stage, 0..=1.
     pub share: f64,
 }
 
-/// A thing that was clicked.
+/// A selected object.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Selection {
-    /// Name of the thing.
+    /// Name of the object.
     pub name: String,
     /// Mass, kg.
     pub mass: f64,
     /// Volume, m³.
     pub volume: f64,
-    /// Sides of the box around it along its own axes, m, falling.
+    /// Side lengths of its bounding box in the body frame, m, in descending order.
     pub size: [f32; 3],
     /// Speed, m/s.
     pub speed: f32,

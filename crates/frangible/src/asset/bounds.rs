@@ -1,9 +1,9 @@
-//! Bounds of the stress of every motion, as an asset keeps them; the module `bounds` of this crate finds them.
+//! Stored stress bounds of an asset; the module `bounds` of this crate computes them.
 
 /// Largest stress and gradient of each mode over clusters of neighbouring fracture tetrahedra.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StressBounds {
-    /// Cluster of each fracture tetrahedron, by its [place](crate::Asset::place).
+    /// Cluster of each fracture tetrahedron, indexed by [`Asset::place`](crate::Asset::place).
     pub cluster_of_tet: Vec<u32>,
     /// Largest linear stress, Pa per m·√kg: one row per cluster, one column per mode.
     pub stress: Vec<f32>,
@@ -12,7 +12,7 @@ pub struct StressBounds {
 }
 
 impl StressBounds {
-    /// Returns true if there are no bounds: they are then computed when a body is made.
+    /// Returns true if there are no bounds; they are then computed when a body is created.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.cluster_of_tet.is_empty()
@@ -25,7 +25,7 @@ impl StressBounds {
         (&self.stress[row.clone()], &self.gradient[row])
     }
 
-    /// Largest entries of all clusters: rows of stress and gradient for the whole body.
+    /// Returns the maximum over all clusters: rows of stress and gradient for the whole body.
     #[must_use]
     pub fn root(&self, modes: usize) -> (Vec<f32>, Vec<f32>) {
         let largest = |rows: &[f32]| {

@@ -1,19 +1,19 @@
-//! Points of the body in the analysis mesh, and its quadratic shape functions there.
+//! Points of the body located in the analysis mesh, and the quadratic shape functions at them.
 
 use glam::Vec3;
 
 use super::Asset;
 use crate::mesh::{EDGES, SurfacePoint};
 
-/// A point of the body as seen by the analysis mesh.
+/// A point of the body, located in the analysis mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EmbeddedPoint {
-    /// Analysis element that holds the point (the nearest one, for a point just outside).
+    /// Analysis element that contains the point, or the nearest one for a point just outside the mesh.
     pub element: u32,
-    /// Barycentric coordinates in it of the point, or of the closest point of the element. They sum to one, and
-    /// may be slightly negative: the element's polynomials hold a little beyond its faces.
+    /// Barycentric coordinates of the point in that element, or of the closest point of the element. They sum to one and may be
+    /// slightly negative, since the element's polynomials can be extrapolated slightly beyond its faces.
     pub barycentric: [f32; 4],
-    /// Offset from that closest point to the point, m; zero for a point that the coordinates give exactly.
+    /// Offset from that closest point to the point, m; zero if the coordinates represent the point exactly.
     pub offset: Vec3,
 }
 
@@ -38,7 +38,7 @@ impl EmbeddedPoint {
         moved
     }
 
-    /// N_a of the element's ten quadratic shape functions at its point closest to this one.
+    /// Returns the values N_a of the element's ten quadratic shape functions at the closest point.
     #[must_use]
     pub fn shape_values(&self) -> [f32; 10] {
         let l = self.barycentric;
@@ -52,7 +52,8 @@ impl EmbeddedPoint {
         })
     }
 
-    /// ∇N_a there, 1/m, from the gradients of the element's barycentric coordinates, 1/m.
+    /// Returns the gradients ∇N_a of the shape functions at the closest point, 1/m, from the gradients of the element's barycentric
+    /// coordinates, 1/m.
     #[must_use]
     pub fn shape_gradients(&self, barycentric_gradients: &[Vec3; 4]) -> [Vec3; 10] {
         let (l, g) = (self.barycentric, barycentric_gradients);
@@ -67,8 +68,8 @@ impl EmbeddedPoint {
     }
 }
 
-/// The analysis nodes that carry a point of the surface, each once, with their weights: ten for each corner of its triangle,
-/// which mostly share an element.
+/// Visits each analysis node that supports a point of the surface once, with its weight: ten nodes for each corner of the
+/// point's triangle; the corners mostly share an element.
 pub fn each_row(asset: &Asset, at: &SurfacePoint, mut visit: impl FnMut(usize, f32)) {
     let (carriers, count) = carriers(asset, at);
     for &(carrier, weight) in &carriers[..count] {

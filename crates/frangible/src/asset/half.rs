@@ -63,9 +63,9 @@ pub(super) fn half_scales(modes: &ModalBasis) -> Vec<f32> {
 }
 
 impl Asset {
-    /// The asset with the mode shapes that its compact file gives back: rounded to half precision, 1 part in 2048 between
-    /// neighbours, so at most 1 in 4096 off. Stress bounds are left out, and peak
-    /// stresses as they were: [`Asset::restressed`] finds them anew.
+    /// Returns the asset with mode shapes rounded to half precision, as read back from a compact file: a relative spacing of 1/2048,
+    /// so a relative error of at most 1/4096. Stress bounds are removed, and peak stresses are not updated; call
+    /// [`Asset::restressed`] to recompute them.
     #[must_use]
     pub fn with_compact_shapes(mut self) -> Self {
         self.bounds = StressBounds::default();

@@ -85,7 +85,7 @@ impl Asset {
         libm::cbrt(self.mass.volume * 0.75 / std::f64::consts::PI)
     }
 
-    /// The baked asset: this one, or for a piece the asset of its parent body.
+    /// Returns the baked asset: the asset itself, or for a piece the asset of the baked body it comes from.
     #[must_use]
     pub fn root(&self) -> &Self {
         match &self.portion {
@@ -94,7 +94,7 @@ impl Asset {
         }
     }
 
-    /// Positions of the vertices of [`Asset::surface`], m, body frame.
+    /// Returns the positions of the vertices of [`Asset::surface`], m, in the body frame.
     #[must_use]
     pub fn surface_positions(&self) -> &[Vec3] {
         match &self.portion {
@@ -103,8 +103,8 @@ impl Asset {
         }
     }
 
-    /// Index of a fracture tetrahedron into lists with an entry for each one of the body: its number, or in a piece its place
-    /// in [`Portion::tets`].
+    /// Returns the index of a fracture tetrahedron in per-tetrahedron lists of the body: its number in a baked body, its position in
+    /// [`Portion::tets`] in a piece.
     #[must_use]
     pub fn place(&self, tet: usize) -> usize {
         match &self.portion {
@@ -113,7 +113,7 @@ impl Asset {
         }
     }
 
-    /// The centroid of a fracture tetrahedron, located in the analysis mesh. In a piece `tet` is one of its [`Portion::tets`].
+    /// Returns the centroid of a fracture tetrahedron, located in the analysis mesh. In a piece, `tet` must be in [`Portion::tets`].
     #[must_use]
     pub fn embedded_tet(&self, tet: usize) -> &EmbeddedPoint {
         &self.embedding.tets[self.place(tet)]
@@ -139,7 +139,7 @@ pub struct OuterSurface {
     pub tets: Vec<u32>,
     /// Unit normals at the three corners: smooth except at sharp edges.
     pub normals: Vec<[Vec3; 3]>,
-    /// Radius of curvature where a contact touches this triangle, m; infinite where flat.
+    /// Radius of curvature of each triangle for contacts, m; infinite if flat.
     pub curvature_radius: Vec<f32>,
     /// Thin walls behind the triangles.
     pub walls: SurfaceWalls,
@@ -167,7 +167,7 @@ impl SurfaceWalls {
         self.thickness.is_empty() && self.stiffening.is_empty() && self.margin.is_empty()
     }
 
-    /// The wall behind a triangle of the surface, if there is one.
+    /// Returns the wall behind a triangle of the surface, if there is one.
     #[must_use]
     pub fn at(&self, triangle: u32) -> Option<SurfaceWall> {
         let i = triangle as usize;

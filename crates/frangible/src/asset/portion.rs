@@ -1,4 +1,4 @@
-//! Portions: the parts of a broken body that its pieces are.
+//! Portions: the parts of a broken body that form its pieces.
 
 use std::sync::Arc;
 
@@ -14,8 +14,8 @@ pub(crate) const FOREIGN: u32 = 1 << 31;
 /// Label of nodes that lie in none of a piece's tetrahedra.
 pub(crate) const NOBODY: u32 = u32::MAX;
 
-/// A part of a body that has broken, or a whole body with its cracks: its own nodes and tetrahedra of the fracture mesh,
-/// and the cuts that part it from the rest.
+/// A part of a broken body, or a whole body with its cracks: its nodes and tetrahedra in the fracture mesh, and the cuts that
+/// separate it from the rest.
 #[derive(Debug)]
 pub struct Portion {
     pub(crate) root: Arc<Asset>,
@@ -41,49 +41,49 @@ pub struct Portion {
 }
 
 impl Portion {
-    /// The body as it was baked.
+    /// Returns the asset of the baked body.
     #[must_use]
     pub fn root(&self) -> &Asset {
         &self.root
     }
 
-    /// Number of breaks behind it: 1 for a piece of a baked body.
+    /// Returns the number of breaks since the baked body: 1 for a piece of a baked body.
     #[must_use]
     pub fn generation(&self) -> u32 {
         self.generation
     }
 
-    /// Its centre of mass in the frame of the fracture mesh, m: where its own frame has its origin.
+    /// Returns the centre of mass in the frame of the fracture mesh, m, which is the origin of the portion's own frame.
     #[must_use]
     pub fn origin(&self) -> DVec3 {
         self.origin
     }
 
-    /// Mass properties about its own centre, in its own frame.
+    /// Returns the mass properties about the portion's centre of mass, in its own frame.
     #[must_use]
     pub fn mass(&self) -> &MassProperties {
         &self.mass
     }
 
-    /// Nodes of the fracture mesh that are its own, rising.
+    /// Returns the portion's nodes in the fracture mesh, in ascending order.
     #[must_use]
     pub fn nodes(&self) -> &[u32] {
         &self.nodes
     }
 
-    /// Fracture tetrahedra that are its own and that no crack has cut, rising: where cracks can start and run.
+    /// Returns the portion's uncut fracture tetrahedra, in ascending order; cracks can start and grow in them.
     #[must_use]
     pub fn tets(&self) -> &[u32] {
         &self.tets
     }
 
-    /// Nodes of its own that something outside holds, rising.
+    /// Returns the portion's supported nodes, in ascending order.
     #[must_use]
     pub fn supported(&self) -> &[u32] {
         &self.supported
     }
 
-    /// Positions of the vertices of its surface, m, in its own frame.
+    /// Returns the positions of the vertices of the portion's surface, m, in its own frame.
     #[must_use]
     pub fn surface_positions(&self) -> &[Vec3] {
         &self.positions

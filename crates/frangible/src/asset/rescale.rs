@@ -1,12 +1,12 @@
-//! Another material or another size without another bake.
+//! Changes the material or size of an asset without baking it again.
 //!
 //! For a fixed shape and Poisson's ratio, K is proportional to E s and M to ρ s³, where s is the size. So
 //! λ goes as E / (ρ s²), the mass-normalised shapes as 1 / √(ρ s³), their gradients one power of s lower, and
-//! their stress as E / (√ρ s^2.5). Damping, strength, toughness, weak points, roughness and contact numbers are in no
-//! mode: they are only replaced.
+//! their stress as E / (√ρ s^2.5). Damping, strength, toughness, weak points, roughness and contact parameters do
+//! not affect the modes and are simply replaced.
 //!
-//! Factors are formed in f64 and each stored f32 is rounded once per call, 6e-8 of it; eigenvalues stay in f64. Rescale the
-//! asset as it was baked rather than the last result, where a slider asks for it a thousand times.
+//! Factors are formed in f64 and each stored f32 is rounded once per call, 6e-8 of it; eigenvalues stay in f64. To avoid
+//! accumulating rounding errors, for example from a slider, always rescale the baked asset rather than the last result.
 
 use std::sync::Arc;
 
@@ -18,8 +18,7 @@ use crate::error::{InputError, positive};
 use crate::material::Material;
 use crate::mesh::MassProperties;
 
-/// Smallest radius of curvature of a surface, m: edges and corners are rounded off this far in any real body, whatever
-/// its size.
+/// Smallest radius of curvature of a surface, m: edges and corners of real bodies are rounded at least this much, at any size.
 pub const SMALLEST_CURVATURE_RADIUS: f64 = 0.003;
 
 /// Poisson's ratios this close are the same: far above the rounding of a sum, far below what shows in a mode.
@@ -41,11 +40,11 @@ pub enum RescaleError {
         asset: String,
         /// Material from which it was baked.
         baked_material: String,
-        /// Poisson's ratio it was baked with.
+        /// Poisson's ratio of the baked material.
         baked: f64,
         /// Requested material.
         wanted_material: String,
-        /// Its Poisson's ratio.
+        /// Poisson's ratio of the requested material.
         wanted: f64,
     },
     /// Mode shapes or stresses would underflow or overflow f32.
@@ -64,7 +63,7 @@ pub enum RescaleError {
 /// Returns the asset with another material of the same Poisson's ratio, as if it had been baked from it.
 ///
 /// # Errors
-/// [`RescaleError::PoissonRatio`] for a material of another ratio; a number of the material out of range.
+/// [`RescaleError::PoissonRatio`] if the material has another Poisson's ratio; a value of the material is out of range.
 pub fn with_material(asset: &Asset, material: &Material) -> Result<Asset, RescaleError> {
     material.validate().map_err(InputError::from)?;
     let old = &asset.material;
@@ -96,11 +95,11 @@ pub fn with_material(asset: &Asset, material: &Material) -> Result<Asset, Rescal
 
 /// Returns the asset scaled by `factor`, with the same material, as if the shape had been baked at that size.
 ///
-/// Curvature radii at [`SMALLEST_CURVATURE_RADIUS`] stay there: edges of a larger body are no blunter. A rounding that the
-/// bake clamped to it is not found again by growing.
+/// Curvature radii at [`SMALLEST_CURVATURE_RADIUS`] stay unchanged: edges of a larger body are no blunter. Radii that the bake
+/// clamped to this value are therefore not recovered by enlarging the asset.
 ///
 /// # Errors
-/// A factor that is not above zero, or so far from one that numbers leave the range of f32.
+/// The factor is not positive, or so large or small that values leave the range of f32.
 pub fn scaled(asset: &Asset, factor: f64) -> Result<Asset, RescaleError> {
     positive("the factor of the size", factor, "times").map_err(InputError::from)?;
     let mut asset = asset.clone();

@@ -1,4 +1,4 @@
-//! A pressure pulse over the surface: an explosion some way off.
+//! Blast load: a pressure pulse on the surface from a distant explosion.
 
 use glam::Vec3;
 
@@ -13,25 +13,27 @@ use crate::mesh::SurfacePoint;
 use crate::motion::{self, Residual};
 use crate::outcome::{LookedAt, Outcome};
 
-/// A pressure pulse that spreads from a point. Its impulse per area falls as 1/distance, as that of an explosion does
-/// at moderate distance; it acts along the normal of what faces the point, weakened by the cosine of its slant.
+/// A pressure pulse that spreads from a point.
+///
+/// Its impulse per area decays as 1/distance, like that of an explosion at moderate distance. It acts along the normal of surfaces
+/// that face the point, reduced by the cosine of the angle of incidence.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Blast {
     /// Centre of the explosion, m, body frame.
     pub origin: Vec3,
     /// Impulse per area at 1 m, Pa·s. One kilogram of TNT gives about 200 Pa·s.
     pub impulse: f32,
-    /// Duration of the pulse, s; a half-sine. One kilogram of TNT at some metres: about 2 ms.
+    /// Duration of the half-sine pulse, s. One kilogram of TNT at a few metres gives about 2 ms.
     pub duration: f32,
 }
 
 /// Least distance at which a part of the surface counts, m: a pressure does not grow without end.
 const NEAREST: f32 = 0.01;
 
-/// Computes the outcome of a blast on a body. The whole surface that faces it is pushed at once.
+/// Computes the outcome of a blast on a body. The pulse acts on the whole facing surface at once.
 ///
 /// # Errors
-/// A number that is not finite, or an impulse or duration that is not above zero; the errors of [`FractureConfig::validate`].
+/// A value is not finite, or the impulse or duration is not positive; the errors of [`FractureConfig::validate`].
 pub fn blast(body: &Body, blast: &Blast, config: &FractureConfig) -> Result<Outcome, InputError> {
     finite("a blast's origin", blast.origin)?;
     positive(

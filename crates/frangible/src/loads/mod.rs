@@ -1,5 +1,5 @@
-//! Loads that are no impact of a rigid-body engine: resting contacts, blasts, scripted blows, motions (beyond the paper,
-//! but for the resting contacts it names `[G12 §7.3.3]`).
+//! Loads other than impacts from a rigid-body engine: resting contacts, blasts, scripted blows and prescribed modal motions. All
+//! but the resting contacts `[G12 §7.3.3]` are extensions of the paper.
 
 mod blast;
 mod motion;

@@ -1,4 +1,4 @@
-//! A motion of the modes that comes from elsewhere.
+//! Fracture under a prescribed modal motion.
 
 use crate::body::Body;
 use crate::config::FractureConfig;
@@ -9,11 +9,13 @@ use crate::motion::Motion;
 use crate::outcome::{LookedAt, Outcome};
 use crate::trace::CrackTrace;
 
-/// Lets cracks run under any motion of a body's modes, wherever it comes from: [`impact()`](crate::impact()) from its stress wave
-/// on. `pressed`: surface triangles that something presses on; `time_step`: of the motion, s. With the energy ledger all
-/// cracks together spend no more than the motion's [peak strain energy](Motion::peak_strain_energy).
+/// Grows cracks under a prescribed motion of a body's modes, with the steps of [`impact()`](crate::impact()) after the stress wave
+/// is computed.
 ///
-/// A motion whose rows are all the same is a steady state: what methods without a vibration make of an impact.
+/// `pressed` lists surface triangles under external pressure; `time_step` is the time step of the motion, s. With the energy ledger,
+/// the cracks together spend at most the motion's [peak strain energy](Motion::peak_strain_energy).
+///
+/// A motion with identical rows represents a static state, as assumed by methods that neglect vibration.
 ///
 /// # Errors
 /// A motion, time step or energy that is not one of this body.

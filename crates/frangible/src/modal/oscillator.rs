@@ -17,7 +17,7 @@ pub struct Oscillator {
 }
 
 impl Oscillator {
-    /// An oscillator at rest, with eigenvalue λ (1/s²), damping d (1/s), pulse frequency u (rad/s), step Δt (s).
+    /// Creates an oscillator at rest with eigenvalue λ (1/s²), damping d (1/s), pulse frequency u (rad/s) and time step Δt (s).
     #[must_use]
     pub fn new(eigenvalue: f64, damping: f64, pulse_frequency: f64, time_step: f64) -> Self {
         let (w, d, u) = (eigenvalue.sqrt(), damping, pulse_frequency);
@@ -39,14 +39,13 @@ impl Oscillator {
         }
     }
 
-    /// One step Δt further, under the pulse or free of it.
+    /// Advances by one step Δt, with the pulse acting if `forced`, free otherwise.
     pub fn step(&mut self, forced: bool) {
         let step = if forced { &self.forced } else { &self.free };
         self.state = step.times(self.state);
     }
 
-    /// Matrix by which a step multiplies the state, under the pulse; free of it the entries `[1][2]` and those that follow
-    /// from it, the upper right quarter, are zero. Row-major.
+    /// Returns the row-major transition matrix of a step under the pulse. For a free step the upper right quarter is zero.
     #[must_use]
     pub fn step_matrix(&self) -> [[f64; 4]; 4] {
         let Step { own, force, turn } = self.forced;
@@ -56,25 +55,25 @@ impl Oscillator {
         })
     }
 
-    /// Displacement q, in m·√kg per N/√kg of modal force.
+    /// Returns the displacement q, in m·√kg per N/√kg of modal force.
     #[must_use]
     pub fn displacement(&self) -> f64 {
         self.state[0] / self.frequency
     }
 
-    /// Velocity q̇.
+    /// Returns the velocity q̇.
     #[must_use]
     pub fn velocity(&self) -> f64 {
         self.state[1]
     }
 
-    /// Strain energy ½ λ q².
+    /// Returns the strain energy ½ λ q².
     #[must_use]
     pub fn strain_energy(&self) -> f64 {
         0.5 * self.state[0] * self.state[0]
     }
 
-    /// Energy ½ (q̇² + λ q²).
+    /// Returns the total energy ½ (q̇² + λ q²).
     #[must_use]
     pub fn energy(&self) -> f64 {
         0.5 * (self.state[0] * self.state[0] + self.state[1] * self.state[1])

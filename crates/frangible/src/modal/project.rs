@@ -1,4 +1,4 @@
-//! Modal sums of pushes on analysis nodes: every sum of mode shapes over the nodes of a place is made of these.
+//! Projection of nodal loads onto the modes; all sums of mode shapes over nodes use these functions.
 //!
 //! A push p on the node b adds φ_i(b) · p to the modal push of mode i `[G12 §4.2]`.
 

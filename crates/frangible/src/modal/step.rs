@@ -1,7 +1,7 @@
-//! The exact step of a mode under a half-sine pulse.
+//! Exact time step of a mode under a half-sine pulse.
 //!
 //! The mode and the pulse together are a linear system without input: its state after a time step is a matrix times its state before,
-//! the exponential of the system's matrix. The matrix is found once per mode and step length, and each step is one product.
+//! the exponential of the system's matrix. The matrix is computed once per mode and step length, and each step is one product.
 
 pub(crate) type Matrix2 = [[f64; 2]; 2];
 

@@ -1,15 +1,15 @@
-//! One tick of an oscillator under a force that grows linearly: exact, for any damping.
+//! Exact step (tick) of an oscillator under a linearly varying force, for any damping.
 
 use super::step::Step;
 
-/// Effect of a tick on ω q and q̇, under a force that goes in a straight line from its beginning to its end.
+/// Effect of a tick on ω q and q̇ under a force that varies linearly over the tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tick {
     /// (ω q, q̇) after the tick per (ω q, q̇) before it.
     pub own: [[f64; 2]; 2],
-    /// (ω q, q̇) after it per force at its beginning, held.
+    /// (ω q, q̇) after the tick per newton of constant force.
     pub held: [f64; 2],
-    /// (ω q, q̇) after it per newton that the force grows by.
+    /// (ω q, q̇) after the tick per newton of linear increase of the force over the tick.
     pub ramp: [f64; 2],
 }
 
@@ -17,7 +17,7 @@ pub struct Tick {
 const SMALL_ANGLE: f64 = 0.02;
 
 impl Tick {
-    /// The tick of an oscillator q̈ + d q̇ + ω² q = f: ω, rad/s; d, 1/s; length of the tick, s.
+    /// Creates the tick of an oscillator q̈ + d q̇ + ω² q = f, with ω in rad/s, d in 1/s and the length of the tick in s.
     #[must_use]
     pub fn new(frequency: f64, damping: f64, tick: f64) -> Self {
         let half = 0.5 * damping;

@@ -1,5 +1,5 @@
-//! Parts of a motion that the followed modes leave out: modes that follow the force (the residual vector), and the near fields of contacts on
-//! walls.
+//! Parts of a motion that the integrated modes do not include: the static response of the other modes (the residual vector) and the
+//! near fields of contacts on walls.
 //!
 //! **Residual vector**, or modal truncation augmentation (Dickens, Nakagawa and Wittbrodt 1997): modes much faster than the force
 //! follow it, `q_i = ξ_i F(t)/λ_i`. Together they are one more shape of the body per contact, `u_s = Σ ξ_i φ_i/λ_i`, with the

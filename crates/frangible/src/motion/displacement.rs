@@ -1,4 +1,4 @@
-//! u = Φ q on the coarse nodes, several time steps at a time; gradients anywhere from ten nodes.
+//! Displacements u = Φ q of the coarse nodes for several time steps at once, and their gradients at any point from ten nodes.
 
 use std::sync::Arc;
 
@@ -8,29 +8,29 @@ use super::Motion;
 use crate::asset::{Asset, EmbeddedPoint};
 use crate::stress::{BATCH, Lanes, STRIDE, Shape, Wide, lane};
 
-/// Displacements of the coarse nodes at a few consecutive steps, each node computed when it is first asked for.
+/// Displacements of the coarse nodes at a few consecutive steps; each node is computed on first use.
 #[derive(Clone, Debug)]
 pub struct DisplacementBatch {
     /// Amplitudes of every mode at the batch's steps, m·√kg.
     amplitudes: Vec<Lanes>,
-    /// Shapes that follow a force, m/N, and the force at the batch's steps, N.
+    /// Shapes of the static response, m/N, and their forces at the batch's steps, N.
     residuals: Vec<(Arc<Shape>, Lanes)>,
     /// `displacements[node][axis][step]`, m.
     displacements: Vec<[Lanes; 3]>,
-    /// Number of batches that had been sought when each node was computed.
+    /// Number of the batch for which each node was last computed.
     computed: Vec<u32>,
-    /// The batch that is held, and the number of those sought.
+    /// Index of the selected batch.
     batch: Option<usize>,
     sought: u32,
 }
 
 impl DisplacementBatch {
-    /// Number of time steps that a batch holds.
+    /// Number of time steps in a batch.
     pub const LANES: usize = BATCH;
     /// Number of time steps from one batch to the next: the first step of a batch is the last of the batch before.
     pub const STRIDE: usize = STRIDE;
 
-    /// Room for the displacements of an asset; it holds no batch yet.
+    /// Creates an empty batch for an asset.
     #[must_use]
     pub fn new(asset: &Asset) -> Self {
         let nodes = asset.analysis.nodes.len();
@@ -44,12 +44,12 @@ impl DisplacementBatch {
         }
     }
 
-    /// Forgets the batch that is held: the motion has changed.
+    /// Discards the selected batch after a change of the motion.
     pub(crate) fn forget(&mut self) {
         self.batch = None;
     }
 
-    /// Makes sure that the batch of `step` is held.
+    /// Selects the batch that contains `step`.
     pub fn seek(&mut self, motion: &Motion, step: usize) {
         let batch = step / STRIDE;
         if self.batch == Some(batch) {
@@ -84,12 +84,12 @@ impl DisplacementBatch {
         &self.amplitudes
     }
 
-    /// Shapes that follow a force, m/N, and the force at the batch's steps, N.
+    /// Shapes of the static response, m/N, and their forces at the batch's steps, N.
     pub(crate) fn residuals(&self) -> &[(Arc<Shape>, Lanes)] {
         &self.residuals
     }
 
-    /// Computes the batch at every node, as if all were asked for.
+    /// Computes the batch at every node in advance.
     pub fn fill(&mut self, asset: &Asset) {
         // With the widest vectors that this processor has, as where they are asked for.
         pulp::Arch::new().dispatch(Fill { batch: self, asset });
@@ -155,7 +155,7 @@ impl DisplacementBatch {
         sum
     }
 
-    /// ∇u at an embedded point, column j = ∂u/∂x_j; the step must be held.
+    /// Returns ∇u at an embedded point, with columns ∂u/∂x_j; `step` must be in the selected batch.
     #[must_use]
     pub fn gradient(&mut self, asset: &Asset, point: &EmbeddedPoint, step: usize) -> Mat3 {
         let k = lane(step);

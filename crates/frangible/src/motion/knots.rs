@@ -1,6 +1,6 @@
-//! A motion at a few of its steps, the *knots*, and how far the modes stray from straight lines between them.
+//! A motion sampled at a few of its steps, the *knots*, and the deviation of the modes from linear interpolation between them.
 //!
-//! Steps are a sixteenth of a period of the highest mode that matters, so that most of what moves a point hardly bends between two knots.
+//! Steps are a sixteenth of the period of the highest relevant mode, so the dominant motion is nearly linear between two knots.
 
 use std::ops::RangeInclusive;
 

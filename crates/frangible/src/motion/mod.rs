@@ -1,4 +1,4 @@
-//! Motion of a body under a load: the amplitudes of its modes over time, the parts that these leave out, and the displacements of its points.
+//! Motion of a body under a load: modal amplitudes over time, corrections for omitted modes, and displacements of points.
 
 mod complement;
 mod displacement;
@@ -34,8 +34,8 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// A motion that comes from elsewhere: amplitudes of the first `modes` modes, step after step, m·√kg, and its largest energy
-    /// and strain energy, J.
+    /// Creates a prescribed motion from the amplitudes of the first `modes` modes, m·√kg, time-major, and its peak energy and peak
+    /// strain energy, J.
     #[must_use]
     pub fn new(
         amplitudes: Vec<f32>,
@@ -69,7 +69,7 @@ impl Motion {
         self.peak_strain_energy = self.strain_energy.last().copied().unwrap_or(0.0);
     }
 
-    /// Number of time steps.
+    /// Returns the number of time steps.
     #[must_use]
     pub fn steps(&self) -> usize {
         self.amplitudes.len().checked_div(self.modes).unwrap_or(0)
@@ -82,7 +82,7 @@ impl Motion {
         known.unwrap_or(self.peak_strain_energy)
     }
 
-    /// Time at which a step begins, s, where the first are so long, s: steps after a blow are longer.
+    /// Returns the start time of a step, s. `time_step` is the length of the first steps, s; steps after the contact are longer.
     #[must_use]
     pub fn begin(&self, step: usize, time_step: f64) -> f64 {
         match self.coarse {
@@ -93,7 +93,8 @@ impl Motion {
         }
     }
 
-    /// The step in which a time, s, lies, where the first steps are so long, s; the last one for later times, none without steps.
+    /// Returns the step that contains a time, s, or the last step for later times; `None` for a motion without steps. `time_step` is the
+    /// length of the first steps, s.
     #[must_use]
     pub fn step_at(&self, time: f64, time_step: f64) -> Option<usize> {
         let last = self.steps().checked_sub(1)?;
@@ -107,7 +108,7 @@ impl Motion {
         Some((step.max(0.0) as usize).min(last))
     }
 
-    /// Amplitudes of all modes at a step, m·√kg.
+    /// Returns the amplitudes of all modes at a step, m·√kg.
     #[must_use]
     pub fn at(&self, step: usize) -> &[f32] {
         &self.amplitudes[step * self.modes..(step + 1) * self.modes]

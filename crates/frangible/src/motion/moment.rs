@@ -1,4 +1,4 @@
-//! u = Φ q on the coarse nodes at one time step, for cracks that run: they ask for few places, each at few steps.
+//! Displacements u = Φ q of the coarse nodes at one time step, for growing cracks, which need few points at few steps each.
 
 use glam::{Mat3, Vec3};
 
@@ -9,7 +9,7 @@ use crate::stress::dot;
 /// Displacements of the coarse nodes at one time step, each node computed when it is first asked for.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Moment {
-    /// Displacement of each node, m, and the time step that it belongs to, counted from 1; empty before anything is asked for.
+    /// Displacement of each node, m, and its time step, counted from 1; empty before the first use.
     nodes: Vec<(Vec3, u32)>,
 }
 

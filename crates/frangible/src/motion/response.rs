@@ -1,12 +1,12 @@
 //! Exact response of the modes to a half-sine force pulse.
 //!
-//! Changes versus `[G12 §4.3]`: the motion goes on after the contact, where the stress often peaks.
+//! Unlike `[G12 §4.3]`, the motion is computed beyond the end of the contact, where the stress often peaks.
 
 use super::{Complement, Motion, Pulse};
 use crate::material::Material;
 use crate::modal::{ModalBasis, Oscillator};
 
-/// Response of the followed modes to `pulse` with load shape ξ, computed in f64, stored in f32 `[G12 §4.3]`.
+/// Computes the response of the integrated modes to `pulse` with load shape ξ in f64, stored in f32 `[G12 §4.3]`.
 #[must_use]
 pub fn respond(basis: &ModalBasis, material: &Material, load: &[f64], pulse: &Pulse) -> Motion {
     let (modes, steps) = (basis.followed(), pulse.total_steps);

@@ -1,4 +1,4 @@
-//! Vibration of a piece, and the body that it makes.
+//! Vibration of a piece, and creation of a body for it.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use crate::error::InputError;
 use crate::modal::ModalBasis;
 use crate::stress::Search;
 
-/// An elastic body for a [`Portion`]: elements that carry its motion, and the modes of the piece.
+/// Elastic model of a [`Portion`]: its analysis elements and the modes of the piece.
 ///
 /// Everything is in the frame of the fracture mesh.
 #[derive(Clone, Debug)]
@@ -35,7 +35,7 @@ impl Elastic {
     }
 }
 
-/// Finds the modes of pieces.
+/// Method of computing the modes of pieces.
 pub trait PieceModel: Send + Sync {
     /// Elastic body that serves from the break on; `None` if the piece is not to break, or not yet. `parent`: the body that broke.
     fn at_once(&self, portion: &Arc<Portion>, parent: &Body) -> Option<Elastic>;
@@ -51,11 +51,13 @@ pub trait PieceModel: Send + Sync {
 }
 
 impl Body {
-    /// A piece of this body as a body of its own, or this body again with other modes: with its share of the weak points,
-    /// strengths and cracks, the same seed, and an [asset](Body::asset) of its own that shares the fracture mesh.
+    /// Creates a body for a piece of this body, or this body again with other modes.
+    ///
+    /// It has the piece's share of the weak points, strengths and cracks, the same seed, and its own [asset](Body::asset), which
+    /// shares the fracture mesh.
     ///
     /// # Errors
-    /// A portion of another body, or an elastic body that does not fit the portion.
+    /// The portion belongs to another body, or the elastic model does not match the portion.
     pub fn piece(&self, portion: &Arc<Portion>, elastic: Elastic) -> Result<Self, InputError> {
         let root = portion.root();
         let (tets, nodes) = (portion.tets(), portion.nodes());

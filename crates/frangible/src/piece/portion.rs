@@ -1,4 +1,4 @@
-//! Makes portions of broken bodies, and of cracked ones.
+//! Creates the portions of broken and cracked bodies.
 
 use std::sync::Arc;
 
@@ -15,8 +15,9 @@ use crate::mesh::{AlongSurface, MassProperties};
 use crate::outcome::{Fracture, Fragment};
 
 impl Portion {
-    /// The whole of a body, with the cracks that it has so far: for modes that feel them. `config` says how cracks end and which crumbs
-    /// stay, as in the impact that left them.
+    /// Creates the portion of a whole body with its present cracks, for recomputing its modes with them.
+    ///
+    /// `config` determines how cracks end and which crumbs are kept; use the settings of the impact that caused the cracks.
     ///
     /// # Errors
     /// The errors of [`FractureConfig::validate`].
@@ -111,8 +112,8 @@ impl Portion {
 }
 
 impl Fracture {
-    /// Portion of the body that each wanted fragment is, for [`Body::piece`]. `body`: the one that broke. `None` for the others,
-    /// and for a fracture that was not computed here.
+    /// Returns the portion of each requested fragment, for [`Body::piece`]; `None` for other fragments, and for a fracture that was not
+    /// computed by this crate. `body` is the body that broke.
     #[must_use]
     pub fn portions(
         &self,

@@ -1,6 +1,6 @@
-//! A piece as a solid of tetrahedra, for which its modes are computed.
+//! Tetrahedral solid of a piece, from which its modes are computed.
 //!
-//! Cracked bodies are covered in parts: two parts of cut tetrahedra hang together where they share a node of the face between
+//! In cracked bodies, cut tetrahedra are represented by their parts. Two parts are connected if they share a node of the face between
 //! them, and the lattice has a copy of its cell on each side of a crack.
 
 use glam::DVec3;
@@ -10,15 +10,15 @@ use crate::fragment::{Point, PointTable, face_parts, interfaces};
 use crate::mesh::{EDGES, FACES, NO_NEIGHBOUR};
 use crate::state::Cuts;
 
-/// Tetrahedra that fill a piece. Those that cracks have cut are there in parts, and parts on two sides of a crack are not
-/// joined.
+/// Tetrahedra that fill a piece. Tetrahedra cut by cracks are split into parts, and parts on opposite sides of a crack are not
+/// connected.
 #[derive(Clone, Debug, Default)]
 pub struct Solid {
     /// Positions of the nodes, in the frame of the fracture mesh, m: [`Portion::nodes`], then points on the cracks.
     pub positions: Vec<DVec3>,
-    /// Right-handed tetrahedra: [`Portion::tets`], then parts of those that are cut.
+    /// Right-handed tetrahedra: [`Portion::tets`], then the parts of cut ones.
     pub tets: Vec<[u32; 4]>,
-    /// Pairs of tetrahedra that hang together over a face, or over a part of one.
+    /// Pairs of tetrahedra connected over a face or a part of one.
     pub joined: Vec<[u32; 2]>,
 }
 
@@ -33,7 +33,7 @@ struct Part {
 }
 
 impl Portion {
-    /// The tetrahedra that fill it.
+    /// Returns the tetrahedra that fill the portion.
     #[must_use]
     pub fn solid(&self) -> Solid {
         let mesh = &self.root.fracture;

@@ -1,10 +1,10 @@
-//! Assets as files: `.frangible`, described in `docs/asset-format.md`.
+//! Asset files (`.frangible`), as specified in `docs/asset-format.md`.
 //!
-//! Sizes, the checksum, every index and every number are checked before a file is believed. The adjacency is stored, because
-//! rebuilding it takes longer than loading the file.
+//! Reading a file checks its sizes, the checksum, every index and every number. The adjacency is stored because rebuilding it
+//! would take longer than loading the file.
 //!
-//! Until 0.1.0 there is one version of the format: what another version wrote is refused with a sentence that says how to make
-//! it anew.
+//! Only the current version of the format is supported. A file of another version is rejected with a message that says how to
+//! bake it again.
 
 mod decode;
 mod disk;
@@ -19,21 +19,21 @@ mod writer;
 pub use error::AssetFileError;
 pub use writer::seal;
 
-/// Version of the file format: the only one that this build reads and writes. Files are cheap to bake again, so there is no
-/// conversion.
+/// Version of the file format, the only one that this build reads and writes. There is no conversion from other versions, since
+/// bodies can be baked again.
 pub const FORMAT_VERSION: u32 = 8;
 
 /// Options for writing an asset.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct SaveOptions {
-    /// Mode shapes in half precision, half as large, rounded to about 1 part in 4000; no stress bounds, no offsets that are zero:
-    /// they are found when the file is read. Default off: bit for bit.
+    /// Writes a compact file: mode shapes in half precision, with a relative error of about 1/4000, without stress bounds and zero
+    /// offsets, which are restored when the file is read. Default off: the asset is stored bit for bit.
     pub compact: bool,
 }
 
 impl SaveOptions {
-    /// Mode shapes in half precision.
+    /// Returns options for a compact file, with mode shapes in half precision.
     #[must_use]
     pub const fn compact() -> Self {
         Self { compact: true }
