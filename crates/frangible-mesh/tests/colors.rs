@@ -218,7 +218,7 @@ fn damaged_colors_cost_no_shape_or_are_named() {
         "{message}"
     );
     let message = refused(r#""componentType":5126,"type":"VEC4""#, &[0; 60]);
-    assert!(message.contains("cut off"), "{message}");
+    assert!(message.contains("truncated"), "{message}");
     let message = refused(r#""componentType":9,"type":"VEC4""#, &[0; 64]);
     assert!(message.contains("accessor 2"), "{message}");
     // Fewer colours than vertices: the rest is white; more are passed over.

@@ -219,7 +219,7 @@ fn counts_beyond_the_file_are_refused_without_the_memory_for_them() {
     ];
     for (format, text) in huge {
         let message = parse_tets(format, text.as_bytes()).unwrap_err().to_string();
-        assert!(message.contains("cut off"), "{message}");
+        assert!(message.contains("truncated"), "{message}");
     }
 }
 

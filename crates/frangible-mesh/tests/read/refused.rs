@@ -137,11 +137,11 @@ fn damaged_files_say_what_is_wrong_where() {
     };
     assert!(
         message(MeshFormat::Ply, huge("face"))
-            .contains("99999999 triangles, the limit is 20000000")
+            .contains("99999999 triangles, but the limit is 20000000")
     );
     assert!(
         message(MeshFormat::Ply, huge("vertex"))
-            .contains("99999999 vertices, the limit is 60000000")
+            .contains("99999999 vertices, but the limit is 60000000")
     );
 }
 
@@ -173,7 +173,7 @@ fn damaged_gltf_says_what_is_wrong_where() {
         (
             r#""count":4"#,
             r#""count":18446744073709551615"#,
-            "vertices, the limit is",
+            "vertices, but the limit is",
         ),
         (
             r#""byteLength":48"#,
@@ -193,7 +193,7 @@ fn damaged_gltf_says_what_is_wrong_where() {
         (
             r#""mesh":0"#,
             r#""mesh":0,"children":[0]"#,
-            "node 0: it has two parents",
+            "node 0: it occurs twice",
         ),
         (
             r#""material":0"#,

@@ -255,7 +255,7 @@ fn sparse_accessors_without_a_base_begin_at_nought() {
         glb(&json.replace(r#""count":4"#, r#""count":40000000"#)),
     );
     assert!(
-        wrong.contains("accessor 0: it has 40000000 rows"),
+        wrong.contains("accessor 0: it has 40000000 elements"),
         "{wrong}"
     );
 }

@@ -39,7 +39,9 @@ pub(super) fn instances(root: &Root) -> Result<Vec<Instance<'_>>, ReadError> {
         let bad = |problem: &str| ReadError::malformed(format!("node {i}"), problem);
         let node = root.nodes.get(i).ok_or_else(|| bad("it does not exist"))?;
         if std::mem::replace(&mut seen[i], true) {
-            return Err(bad("it has two parents; a node may have only one"));
+            return Err(bad(
+                "it occurs twice in the scene; a node may have only one parent",
+            ));
         }
         let transform = above * local(node);
         instances.extend(node.mesh.map(|mesh| Instance {
