@@ -1,4 +1,4 @@
-//! The quadratic elements that carry the modes: a mesh of the shape, or a lattice that covers it.
+//! Quadratic elements for the modal analysis: a conforming mesh of the shape, or a lattice that covers it.
 
 use frangible::glam::DVec3;
 use frangible::internals::asset::{AnalysisMesh, Embedding};
@@ -19,11 +19,11 @@ const TOO_SMALL: &str = "contains only a part of the body smaller than an elemen
 
 /// Elements that carry the modes.
 pub(crate) enum Analysis {
-    /// Elements that end where the body ends: shapes that are meshed by a rule.
+    /// Elements that conform to the boundary, for parametric shapes.
     Conforming(QuadraticMesh, MeshReport),
-    /// Elements of a lattice, integrated over the body alone: any solid, however thin its walls.
+    /// Elements of a covering lattice, integrated over the body only, for any solid, even with thin walls.
     Covering(Cover),
-    /// The linear elements of the body's own mesh; kept as quadratic ones that move linearly.
+    /// Linear elements of the body's own mesh, stored as quadratic elements with linear displacements.
     Linear(QuadraticMesh, MeshReport),
 }
 

@@ -1,4 +1,4 @@
-//! Convex cells of the body: points for the colliders of the whole and of its fragments.
+//! Convex cells of the body, from which the colliders of the body and of its fragments are made.
 
 use frangible::glam::Vec3;
 use frangible::internals::TetMesh;

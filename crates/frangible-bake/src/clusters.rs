@@ -1,8 +1,8 @@
 //! Compact face-connected clusters of tetrahedra: the collision cells of a body of any shape.
 //!
-//! Lloyd's algorithm on the graph of neighbouring tetrahedra [Cohen-Steiner, Alliez, Desbrun 2004 do it on surfaces]:
-//! each tetrahedron belongs to the seed it is nearest to through the body, so that a cluster never joins two walls that
-//! are close in space only.
+//! Lloyd's algorithm on the graph of neighbouring tetrahedra, as used on surfaces by Cohen-Steiner, Alliez and Desbrun (2004):
+//! each tetrahedron belongs to the seed with the shortest path through the body, so that a cluster never joins two walls that
+//! are merely close in space.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;

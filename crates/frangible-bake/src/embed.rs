@@ -10,8 +10,8 @@ use crate::mesh::barycentric_gradients;
 
 /// A uniform grid over the elements of an analysis mesh, for point location.
 ///
-/// Points just outside are clamped to the closest point of the nearest element; a distance above a
-/// quarter of that element's mean edge is an error, since the displacement would be extrapolated too far.
+/// Points just outside are mapped to the closest point of the nearest element. A distance above a quarter of that element's mean
+/// edge length is an error, since the displacement would be extrapolated too far.
 #[derive(Clone, Debug)]
 pub struct Locator {
     corners: Vec<[DVec3; 4]>,
@@ -20,7 +20,7 @@ pub struct Locator {
     origin: DVec3,
     cell: f64,
     counts: [usize; 3],
-    /// Elements of grid cell c: `items[starts[c]..starts[c + 1]]`, rising.
+    /// Elements of grid cell c: `items[starts[c]..starts[c + 1]]`, in ascending order.
     starts: Vec<usize>,
     items: Vec<u32>,
 }
@@ -31,7 +31,7 @@ const INSIDE: f64 = -1e-9;
 const REACH: f64 = 0.25;
 
 impl Locator {
-    /// Sorts the elements into the grid.
+    /// Builds the grid for a mesh.
     #[must_use]
     pub fn new(mesh: &QuadraticMesh) -> Self {
         let corners: Vec<[DVec3; 4]> = (0..mesh.elements.len()).map(|e| mesh.corners(e)).collect();
@@ -100,7 +100,7 @@ impl Locator {
         [1.0 - l[1] - l[2] - l[3], l[1], l[2], l[3]]
     }
 
-    /// Element, barycentric coordinates and offset (m) of a point, in f64.
+    /// Returns the element, the barycentric coordinates and the offset (m) of a point, in f64.
     ///
     /// # Errors
     /// [`BakeError::OutsideAnalysisMesh`] when no element is near enough.
@@ -135,7 +135,7 @@ impl Locator {
             .ok_or_else(outside)
     }
 
-    /// Locates a point and gives its place as the asset stores it.
+    /// Locates a point and returns the result in the format of the asset.
     ///
     /// # Errors
     /// [`BakeError::OutsideAnalysisMesh`] when no element is near enough.

@@ -4,14 +4,14 @@
 //! steps. So the number depends on the blow. A hard blow is assumed: a steel ball with a tenth of the body's mass and a radius of 10 mm at
 //! 5 m/s, with Hertz's duration on a flat surface and a half-sine force inwards along the normal. Softer or slower blows last longer and
 //! need fewer modes.
-//! A body with [branches](has_branches) is hit by a ball of a tenth of a branch: the branch and not the body resists at its end, so
-//! that the contact is shorter and excites more modes. Of twelve arms, twelve modes are one bending of each.
+//! For a body with [branches](has_branches), the ball has a tenth of the mass of a branch: at its end, the branch and not the whole body
+//! resists the contact, which is therefore shorter and excites more modes. Twelve arms have twelve modes of first-order bending.
 //!
-//! [`CONTACTS`] places, spread over the surface as far from one another as can be, are hit one by one. Of each, the largest
-//! principal tension over a sample of tetrahedra and over time is found with the lowest N modes followed, for a ladder of N. The
-//! smallest N is chosen from which on following more changes it by less than [`TOLERANCE`], for all contacts but [`SPARED`].
-//! The sample is spread over the surface, and dense about the contact. On a wall, tetrahedra within
-//! [`NEAR`] thicknesses of the contact are left out: no number of modes shows the stress there, which the near field gives.
+//! The blow is simulated at [`CONTACTS`] points that are spread evenly over the surface. For each point, the largest tensile
+//! principal stress over a sample of tetrahedra and over time is computed with the lowest N modes integrated, for a sequence of N.
+//! The result is the smallest N beyond which more modes change this stress by less than [`TOLERANCE`], for all points but
+//! [`SPARED`]. The sample is spread over the surface and dense around the contact. On a wall, tetrahedra within [`NEAR`] thicknesses
+//! of the contact are excluded, since no number of modes resolves the stress there, which the near field provides.
 
 use frangible::Asset;
 use frangible::glam::{DMat3, DVec3, Vec3};
@@ -181,7 +181,7 @@ struct Pulse {
     duration: f64,
     /// Time step, s.
     step: f64,
-    /// Steps from one time to the next, after the force.
+    /// Number of steps between sampled times after the contact.
     stride: usize,
 }
 
@@ -234,7 +234,7 @@ impl Pulse {
 /// Stress of each mode at a point, Pa per m·√kg: one row of modes for each of xx, yy, zz, xy, yz, zx.
 type Rows = [Vec<f32>; 6];
 
-/// Stress of each mode in the middle of a fracture tetrahedron.
+/// Returns the stress of each mode at the centroid of a fracture tetrahedron.
 #[must_use]
 pub fn stress_rows(asset: &Asset, tet: usize) -> Rows {
     let point = &asset.embedding.tets[tet];

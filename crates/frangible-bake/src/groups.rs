@@ -1,7 +1,7 @@
-//! Named parts of a body's surface, as its file names them.
+//! Named parts of a body's surface from its mesh file.
 //!
-//! A group holds the outer nodes that lie within a fifth of their shortest edge of it, since the fine mesh follows curved walls
-//! by chords.
+//! A group contains the outer nodes within a fifth of their shortest edge of it, since the fine mesh approximates curved walls by
+//! chords.
 
 use frangible::glam::DVec3;
 use frangible::internals::mesh::closest_on_triangle;
@@ -11,19 +11,19 @@ use frangible_mesh::{InputMesh, Similarity};
 /// curved walls by chords, while the next layer of nodes is most of an edge away.
 const SHARE_OF_EDGE: f64 = 0.2;
 
-/// A named part of a body, m, in the frame of the shape, which [`Region::Group`](crate::Region::Group) holds.
+/// A named part of a body, in m and in the frame of the shape, for use with [`Region::Group`](crate::Region::Group).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Group {
-    /// Its name.
+    /// Name of the group.
     pub name: String,
     /// Triangles of the surface: nodes on them belong to the group.
     pub triangles: Vec<[DVec3; 3]>,
-    /// Single places: nodes there belong to the group.
+    /// Single points: nodes at them belong to the group.
     pub points: Vec<DVec3>,
 }
 
 impl Group {
-    /// All named parts of a mesh: its groups, objects and materials. Parts of one name are one.
+    /// Returns all named parts of a mesh: its groups, objects and materials. Parts with the same name are merged.
     #[must_use]
     pub fn of_mesh(mesh: &InputMesh, similarity: &Similarity) -> Vec<Self> {
         let corners = |t: u32| {
@@ -46,16 +46,16 @@ impl Group {
 
 /// Finds the nodes of a mesh that lie on a group.
 pub(crate) struct Reach {
-    /// Nodes that can lie on a group, by x.
+    /// Nodes that can lie on a group, sorted by x.
     nodes: Vec<Near>,
-    /// The largest of their reaches, m.
+    /// Largest reach of a node, m.
     largest: f64,
 }
 
 struct Near {
     /// Position in the frame of the shape, m.
     position: DVec3,
-    /// Distance from the group up to which the node lies on it, m.
+    /// Largest distance at which the node counts as lying on a group, m.
     reach: f64,
     node: u32,
 }

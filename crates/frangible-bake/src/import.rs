@@ -1,4 +1,4 @@
-//! A mesh from a file as a shape to bake.
+//! Import of meshes as shapes to bake.
 
 use std::sync::Arc;
 
@@ -63,7 +63,7 @@ pub struct Imported {
 /// Repairs a mesh and determines its interior and wall thickness.
 ///
 /// # Errors
-/// A mesh that does not describe a solid, or an invalid number.
+/// The mesh does not describe a solid, or a value is invalid.
 pub fn import_mesh(mesh: &InputMesh, options: &ImportOptions) -> Result<Imported, BakeError> {
     positive("the number of tetrahedra wanted", options.tets as f64)?;
     let (mut surface, mended) = repair(mesh)?;

@@ -1,4 +1,4 @@
-//! Tetrahedra from a file as a shape to bake.
+//! Import of tetrahedra as shapes to bake.
 
 use std::sync::Arc;
 
@@ -20,10 +20,10 @@ pub struct ImportedTets {
     pub similarity: Similarity,
 }
 
-/// Repairs and checks tetrahedra. `size`: length of the longest side, m; `None`: the file is in metres.
+/// Repairs and checks tetrahedra. `size` is the length of the longest side, m; with `None` the file is in metres.
 ///
 /// # Errors
-/// Tetrahedra that do not form a body, or an invalid size.
+/// The tetrahedra do not form a body, or the size is invalid.
 pub fn import_tets(
     input: &TetInput,
     size: Option<f64>,

@@ -1,4 +1,4 @@
-//! Tetrahedra as the shapes give them, in f64.
+//! Tetrahedral mesh of a shape, in f64.
 
 use frangible::glam::DVec3;
 use frangible_mesh::quality::dihedral_range;
@@ -6,7 +6,7 @@ pub(crate) use frangible_mesh::quality::volume as tet_volume;
 
 use crate::error::BakeError;
 
-/// Tetrahedra of a body, every one right-handed, with its convex cells.
+/// Right-handed tetrahedra of a body, with its convex cells.
 #[derive(Clone, Debug, Default)]
 pub struct BodyMesh {
     /// Node positions, m, in the frame of the shape.
@@ -15,18 +15,18 @@ pub struct BodyMesh {
     pub tets: Vec<[u32; 4]>,
     /// Nearly convex cell of each tetrahedron, 0..`cells`.
     pub cell_of_tet: Vec<u32>,
-    /// Number of cells, none of them empty.
+    /// Number of cells; none is empty.
     pub cells: usize,
 }
 
 impl BodyMesh {
-    /// Corners of tetrahedron `e`, m.
+    /// Returns the corners of tetrahedron `e`, m.
     #[must_use]
     pub fn corners(&self, e: usize) -> [DVec3; 4] {
         self.tets[e].map(|v| self.positions[v as usize])
     }
 
-    /// Volume of the body, m³.
+    /// Returns the volume of the body, m³.
     #[must_use]
     pub fn volume(&self) -> f64 {
         (0..self.tets.len())
@@ -34,7 +34,7 @@ impl BodyMesh {
             .sum()
     }
 
-    /// Smallest angle between two faces of one tetrahedron, degrees (70.5 in a regular one).
+    /// Returns the smallest dihedral angle, degrees (70.5 in a regular tetrahedron).
     #[must_use]
     pub fn min_dihedral(&self) -> f64 {
         (0..self.tets.len())

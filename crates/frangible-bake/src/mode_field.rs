@@ -1,14 +1,14 @@
-//! A vibration mode as fields on the body, to be looked at: displacement and linear stress at points.
+//! Displacement and linear stress of a vibration mode as fields on the body, for visualization.
 //!
-//! Stresses to be looked at are means at the nodes, since the stress of single elements jumps and shows as blotches; the run
-//! time keeps the stress of the elements.
+//! The stresses are averaged at the nodes, since element stresses are discontinuous and look blotchy; the simulation uses the element
+//! stresses.
 
 use frangible::glam::{Mat3, Vec3};
 use frangible::internals::asset::EmbeddedPoint;
 use frangible::internals::stress::Symmetric3;
 use frangible::{Asset, Material};
 
-/// A mode at the nodes of a mesh, one entry per node in each list. Its sign, and so that of its stresses, is arbitrary.
+/// A mode at the nodes of a mesh, with one entry per node in each list. The sign of the mode and of its stresses is arbitrary.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ModeField {
     /// Displacements, m per unit amplitude (m·√kg): 1/√kg.
@@ -18,7 +18,7 @@ pub struct ModeField {
 }
 
 impl ModeField {
-    /// Length of the largest displacement, 1/√kg.
+    /// Returns the magnitude of the largest displacement, 1/√kg.
     #[must_use]
     pub fn largest_displacement(&self) -> f32 {
         self.displacements
@@ -28,8 +28,8 @@ impl ModeField {
     }
 }
 
-/// Mode number `mode`, from 0, at the nodes of the fracture mesh: the body as it is broken and drawn. Stresses are
-/// those of [`mode_on_analysis_mesh`], interpolated, so that they have no jumps.
+/// Evaluates mode `mode`, from 0, at the nodes of the fracture mesh, which is the mesh that is broken and drawn. Stresses are
+/// interpolated from [`mode_on_analysis_mesh`], so that they are continuous.
 ///
 /// # Panics
 /// If the asset has no such mode.
@@ -38,8 +38,8 @@ pub fn mode_on_fracture_mesh(asset: &Asset, mode: usize) -> ModeField {
     onto_fracture_mesh(asset, &mode_on_analysis_mesh(asset, mode))
 }
 
-/// The body with these amplitudes of its modes, m·√kg, at the nodes of the fracture mesh: displacements in m, stresses in
-/// Pa. Modes beyond the list stand still.
+/// Evaluates the motion with these modal amplitudes, m·√kg, at the nodes of the fracture mesh: displacements in m, stresses in
+/// Pa. Modes beyond the list have amplitude zero.
 #[must_use]
 pub fn motion_on_fracture_mesh(asset: &Asset, amplitudes: &[f32]) -> ModeField {
     onto_fracture_mesh(asset, &motion_on_analysis_mesh(asset, amplitudes))
@@ -60,8 +60,8 @@ fn onto_fracture_mesh(asset: &Asset, coarse: &ModeField) -> ModeField {
     field
 }
 
-/// Mode number `mode`, from 0, at the nodes of the analysis mesh. Stresses jump from element to element; these are
-/// the means over the elements around each node. Nodes of no element have none.
+/// Evaluates mode `mode`, from 0, at the nodes of the analysis mesh. Element stresses are discontinuous, so they are averaged over
+/// the elements around each node; nodes without elements have zero stress.
 ///
 /// # Panics
 /// If the asset has no such mode.
@@ -70,8 +70,8 @@ pub fn mode_on_analysis_mesh(asset: &Asset, mode: usize) -> ModeField {
     with_stresses(asset, mode_displacements(asset, mode))
 }
 
-/// The body with these amplitudes of its modes, m·√kg, at the nodes of the analysis mesh: displacements in m, stresses in
-/// Pa, means as in [`mode_on_analysis_mesh`]. Modes beyond the list stand still.
+/// Evaluates the motion with these modal amplitudes, m·√kg, at the nodes of the analysis mesh: displacements in m, stresses in
+/// Pa, averaged as in [`mode_on_analysis_mesh`]. Modes beyond the list have amplitude zero.
 #[must_use]
 pub fn motion_on_analysis_mesh(asset: &Asset, amplitudes: &[f32]) -> ModeField {
     let count = asset.modes.count();
@@ -139,7 +139,7 @@ fn value_and_gradient(asset: &Asset, field: &[Vec3], point: &EmbeddedPoint) -> (
     }
     (value, gradient)
 }
-/// Von Mises' equivalent of a stress, √(3 J₂): the tension of a bar that is distorted as much.
+/// Returns the von Mises equivalent stress, √(3 J₂).
 #[must_use]
 pub fn von_mises(stress: &Symmetric3) -> f32 {
     let ([xx, yy, zz], [xy, yz, zx]) = (stress.diagonal, stress.off);

@@ -1,31 +1,31 @@
-//! Parts of the search for modes, by which its time is reported.
+//! Phases of the modal analysis, for reporting its time.
 
 use std::fmt;
 
-/// Parts of the search for modes, in the order in which they first run.
+/// Phases of the modal analysis, in the order of their first run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Phase {
-    /// Scaling, the order of elimination and the pattern of the factor.
+    /// Scaling, elimination ordering and symbolic factorization.
     Ordering,
-    /// Numbers of the Cholesky factor.
+    /// Numerical Cholesky factorization.
     Factorization,
-    /// Solves with the factor; the whole of a dense eigenproblem.
+    /// Solves with the factor, or the whole solution of a dense eigenproblem.
     Solves,
     /// Products with the mass matrix.
     Mass,
-    /// Making each block orthogonal to all before.
+    /// Orthogonalization of each block against all previous ones.
     Orthogonalisation,
     /// Eigenvalues of the projected matrix.
     Projected,
-    /// Mode shapes from the basis.
+    /// Computation of the mode shapes from the basis.
     Shapes,
-    /// The residual of every mode.
+    /// Check of the residual of every mode.
     ResidualCheck,
 }
 
 impl Phase {
-    /// All of them, in order.
+    /// All phases, in order.
     pub const ALL: [Self; 8] = [
         Self::Ordering,
         Self::Factorization,

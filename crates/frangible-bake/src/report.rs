@@ -12,7 +12,7 @@ use crate::phase::Phase;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Stage {
-    /// Making the two meshes.
+    /// Generating the two meshes.
     Mesh,
     /// Assembling stiffness and mass.
     Assemble,
@@ -20,11 +20,11 @@ pub enum Stage {
     Modes,
     /// Locating the fracture mesh in the analysis mesh.
     Embed,
-    /// Normals, curvature, convex cells.
+    /// Computing normals, curvature and convex cells.
     Surface,
-    /// Thickness, curvature and edges of thin walls.
+    /// Measuring thickness, curvature and edges of thin walls.
     Walls,
-    /// Peak stress of each mode.
+    /// Computing the peak stress of each mode.
     Stress,
     /// Determining the number of modes that are integrated through time.
     Followed,
@@ -54,7 +54,7 @@ pub struct Progress {
     pub fraction: f64,
 }
 
-/// Figures of one mesh.
+/// Statistics of a mesh.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MeshReport {
     /// Number of nodes, mid-edge nodes included.
@@ -78,7 +78,7 @@ impl MeshReport {
     }
 }
 
-/// Figures of a bake.
+/// Statistics of a bake.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct BakeReport {
@@ -94,7 +94,7 @@ pub struct BakeReport {
     pub rigid_motions: usize,
     /// The first ten natural frequencies, Hz.
     pub frequencies: Vec<f64>,
-    /// Modes that the asset keeps.
+    /// Number of modes stored in the asset.
     pub modes: usize,
     /// Number of the lowest modes that are integrated through time during a blow; the others respond statically.
     pub followed: usize,

@@ -1,10 +1,10 @@
-//! A triangulated sheet in two parameters, made irregular on purpose but well-shaped.
+//! A triangulated sheet over two parameters, deliberately irregular but with well-shaped triangles.
 //!
-//! Cracks run along element faces' neighbours, so a lattice would show in them. The sheet is jittered
-//! with a seed, re-connected by Lawson flips until no two triangles fail the Delaunay test, and
-//! relaxed by a few steps of Laplacian smoothing; vertices on edges slide only along them.
+//! A regular mesh would show in the crack faces. The sheet is therefore jittered with a seed, made
+//! Delaunay by Lawson flips, and relaxed by a few steps of Laplacian smoothing; vertices on edges
+//! slide only along them.
 //!
-//! Boxes and bodies of revolution are one such sheet, extruded through layers.
+//! Boxes and bodies of revolution are such a sheet, extruded in layers.
 
 use frangible::glam::DVec3;
 

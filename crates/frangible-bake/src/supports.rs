@@ -53,18 +53,17 @@ pub enum Region {
     },
     /// A ball.
     Sphere {
-        /// Its centre, m.
+        /// Centre of the ball, m.
         centre: DVec3,
-        /// Its radius, m.
+        /// Radius of the ball, m.
         radius: f64,
     },
-    /// The nodes of a [`Group`] of [`BakeSpec::groups`](crate::BakeSpec::groups): those of the outer surface within a fifth of their shortest
-    /// edge of it.
+    /// The nodes of a [`Group`] of [`BakeSpec::groups`](crate::BakeSpec::groups): outer nodes within a fifth of their shortest edge of it.
     Group(String),
 }
 
 impl Region {
-    /// Everything whose coordinate along `axis` (0 x, 1 y, 2 z and above) is `at` m or less.
+    /// Makes the half-space where the coordinate along `axis` (0: x, 1: y, 2 and above: z) is at most `at`, m.
     #[must_use]
     pub fn below(axis: usize, at: f64) -> Self {
         let normal = DVec3::AXES[axis.min(2)];
@@ -74,7 +73,7 @@ impl Region {
         }
     }
 
-    /// Everything whose coordinate along `axis` (0 x, 1 y, 2 z and above) is `at` m or more.
+    /// Makes the half-space where the coordinate along `axis` (0: x, 1: y, 2 and above: z) is at least `at`, m.
     #[must_use]
     pub fn above(axis: usize, at: f64) -> Self {
         let normal = DVec3::AXES[axis.min(2)];
@@ -182,7 +181,7 @@ fn group_of<'a>(region: &Region, groups: &'a [Group]) -> Result<Option<&'a Group
 pub(crate) struct Holder<'a> {
     /// The supports, each with the group that it names, if any.
     supports: Vec<(&'a Support, Option<&'a Group>)>,
-    /// Offset from a place in the body's frame to the same in that of the shape, m.
+    /// Offset from coordinates of the body frame to those of the shape, m.
     origin: DVec3,
     tolerance: f64,
 }

@@ -6,9 +6,9 @@ use frangible::internals::asset::OuterSurface;
 
 pub use frangible::internals::asset::SMALLEST_CURVATURE_RADIUS as SMALLEST_RADIUS;
 
-/// Faces that meet at a larger angle, degrees, keep their edge sharp.
+/// Largest angle between the normals of faces that are shaded smoothly across their edge, degrees.
 pub const CREASE: f64 = 35.0;
-/// The largest such angle on the lattice mesh of a solid, whose triangles turn more from one to the next on curved surfaces.
+/// The same limit for the lattice mesh of a solid, whose triangles deviate more from each other on curved surfaces, degrees.
 pub const SOLID_CREASE: f64 = 50.0;
 /// Radii above this many body diagonals count as flat: they are the rounding of f32 positions.
 const FLAT: f64 = 50.0;

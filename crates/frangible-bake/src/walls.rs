@@ -1,21 +1,22 @@
-//! Thin walls behind the outer surface: their thickness, curvature, and distance to their edge.
+//! Thin walls behind the outer surface: their thickness, curvature and distance to an edge.
 //!
-//! A hit on a wall bends it most within a few thicknesses of the contact, where no mode resolves it; the run time adds that
-//! part from these numbers. All of them come from the surface alone, so that shapes meshed by a rule and meshes from files are
-//! measured alike.
+//! An impact bends a wall most within a few thicknesses of the contact, which the modes do not resolve; the simulation adds this
+//! bending from the quantities computed here. They depend on the surface only, so that parametric shapes and imported meshes are
+//! treated alike.
 //!
-//! **Thickness.** Rays into the body against the smooth normal, three per triangle, to the opposite face, which must be nearly
-//! parallel; then the mean over a neighbourhood half a thickness wide, so that the facets of a curved wall do not show: 5 % of
-//! thickness are 10–15 % of stress.
+//! **Thickness.** Three rays per triangle are cast into the body against the smooth normal to the opposite face, which must be nearly
+//! parallel. The result is averaged over a neighbourhood half a thickness wide to remove the effect of facets on curved walls: an
+//! error of 5 % in thickness is 10–15 % in stress.
 //!
-//! **Curvature.** Over a neighbourhood of [`SCALE`] thicknesses the normal is a linear function of the place, by least squares:
-//! exact for spheres and tubes however far it reaches, and facets average out. The middle surface is half a thickness away.
+//! **Curvature.** The normal is fitted as a linear function of position over a neighbourhood of [`SCALE`] thicknesses by least
+//! squares. This is exact for spheres and tubes at any size of the neighbourhood and averages out facets. The middle surface is half
+//! a thickness away.
 //!
-//! **Margin.** Fronts that start where the wall ends: at a crease, where no parallel face is behind it, where it is a third
-//! thicker or thinner, where its radius falls below [`SLENDER`] thicknesses. A held part is another such edge.
+//! **Margin.** Distances are propagated from the edges of the wall: creases, places without a parallel face behind, changes of
+//! thickness by a third, radii below [`SLENDER`] thicknesses, and supports.
 //!
-//! **What is a wall.** A connected stretch that a disc of radius [`SLENDER`] thicknesses fits into. So a pane, a plate, the side
-//! of a glass is one; a cube, a brick, a ball, a hammer's head and the rim of a pane are none.
+//! **Definition of a wall.** A wall is a connected region into which a disc of radius [`SLENDER`] thicknesses fits. Panes, plates and
+//! the side of a drinking glass are walls; a cube, a brick, a ball, a hammer head and the rim of a pane are not.
 
 use frangible::glam::{DMat2, DVec2, DVec3, Vec3};
 use frangible::internals::asset::{OuterSurface, SurfaceWalls};
@@ -97,7 +98,7 @@ struct Faces<'a> {
     /// Unit normal of the flat triangle.
     normal: Vec<DVec3>,
     area: Vec<f64>,
-    /// Neighbours across edges that are no crease.
+    /// Neighbours across edges that are not creases.
     smooth: Vec<[u32; 3]>,
     size: f64,
 }
@@ -378,7 +379,7 @@ fn neighbours(triangles: &[[u32; 3]], smooth: impl Fn(usize, usize) -> bool) -> 
 
 /// Walks over triangles that hang together, nearest rings first.
 struct Walk {
-    /// The walk that last saw each triangle.
+    /// Number of the last traversal that visited each triangle.
     seen: Vec<u32>,
     walks: u32,
     found: Vec<u32>,

@@ -1,4 +1,4 @@
-//! Constraints of a held body, and the rigid motions that they leave.
+//! Constraints of a supported body, and its remaining rigid-body modes.
 
 use frangible::glam::DVec3;
 
@@ -6,17 +6,17 @@ use frangible::glam::DVec3;
 /// of the motion, is free. Far above the rounding of positions, far below any part of a body that can hold it.
 const INDEPENDENT: f64 = 1e-6;
 
-/// Constraints of a system. The default holds nothing.
+/// Constraints of a system. The default has none.
 #[derive(Clone, Debug, Default)]
 pub struct Constraints {
-    /// Unknowns that are zero, rising: they are taken out of the problem.
+    /// Fixed unknowns, in ascending order; they are eliminated.
     unknowns: Vec<usize>,
-    /// Places and the axes along which they do not move.
+    /// Points, and the axes along which they are fixed.
     places: Vec<(DVec3, [bool; 3])>,
 }
 
 impl Constraints {
-    /// Nodes held along axes: `held` has one entry per node of the system, or none at all.
+    /// Creates constraints of nodes along axes. `held` has one entry per node of the system, or is empty.
     #[must_use]
     pub fn of_nodes(positions: &[DVec3], held: &[[bool; 3]]) -> Self {
         let unknowns = held.iter().flatten().enumerate();
@@ -26,7 +26,8 @@ impl Constraints {
         }
     }
 
-    /// Places that the stiffness itself holds, by springs: rigid motions that move none of them cost nothing.
+    /// Creates constraints of points that are fixed by springs in the stiffness matrix; rigid motions that move none of them have zero
+    /// strain energy.
     #[must_use]
     pub fn of_places(positions: &[DVec3], held: &[[bool; 3]]) -> Self {
         let places = positions.iter().copied().zip(held.iter().copied());
@@ -36,7 +37,7 @@ impl Constraints {
         }
     }
 
-    /// Unknowns that are zero, rising.
+    /// Returns the fixed unknowns, in ascending order.
     #[must_use]
     pub fn unknowns(&self) -> &[usize] {
         &self.unknowns

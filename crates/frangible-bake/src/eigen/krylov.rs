@@ -1,4 +1,4 @@
-//! B-orthonormal panels: the rigid motions, then the blocks that Lanczos finds.
+//! B-orthonormal panels: the rigid motions, then the Lanczos blocks.
 
 use crate::eigen::basis::Block;
 use crate::eigen::dense::symmetric_eigen;

@@ -1,7 +1,7 @@
 //! Block Lanczos on (A + sB)⁻¹ B with full reorthogonalisation, in the inner product xᵀ B y.
 //!
-//! Many right-hand sides at once are decisive: a sparse solve with eight costs little more than with one,
-//! since reading the factor from memory is what takes the time.
+//! Blocks are essential for speed: a sparse solve with eight right-hand sides takes little longer than with
+//! one, since the time is dominated by reading the factor from memory.
 
 use crate::eigen::basis::Block;
 use crate::eigen::dense::symmetric_eigen;

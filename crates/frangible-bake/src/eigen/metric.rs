@@ -1,4 +1,4 @@
-//! The inner product xᵀ B y in which modes are orthonormal, and bases that know their images B x.
+//! The inner product xᵀ B y in which modes are orthonormal, and bases that store their images B x.
 
 use std::borrow::Cow;
 
@@ -188,7 +188,7 @@ fn subtract_multiple(from: &mut [f64], factor: f64, what: &[f64]) {
 pub(crate) struct Basis {
     /// The columns.
     pub(crate) vectors: Block,
-    /// B times the columns; `None` where B = I.
+    /// B times the columns; `None` if B = I.
     images: Option<Block>,
 }
 

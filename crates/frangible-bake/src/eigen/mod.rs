@@ -1,12 +1,12 @@
-//! The lowest vibration modes of a body, free or held.
+//! Computation of the lowest vibration modes of a free or supported body.
 //!
-//! K φ = λ M φ becomes A x = λ B x with A = D K D, B = D M D, φ = D x and D = diag(M)^-½; B = I where the
+//! K φ = λ M φ becomes A x = λ B x with A = D K D, B = D M D, φ = D x and D = diag(M)^-½; B = I if the
 //! mass is lumped. A + sB is factorized once; block Lanczos on (A + sB)⁻¹ B, the six rigid motions
 //! deflated analytically, finds the lowest modes: λ = 1/θ − s. Everything runs in a fixed order, so
 //! the bits do not depend on the number of threads. Small systems are solved densely.
 //!
-//! The unknowns of a held body that are zero are taken out, and only the rigid motions that its supports leave are
-//! deflated: none of a clamped one.
+//! Fixed unknowns of a supported body are eliminated, and only its remaining rigid-body modes are deflated; a clamped body has
+//! none.
 
 pub(crate) mod basis;
 mod constraints;
@@ -50,11 +50,11 @@ const FIRST_ATTEMPT: f64 = 0.95;
 pub(crate) struct Accuracy {
     /// Unknowns up to which the dense solver is used, which is exact.
     dense: usize,
-    /// Wanted modes per unknown beyond which the dense solver is used, too.
+    /// Requested modes per unknown above which the dense solver is also used.
     share: f64,
-    /// Relative residual at which a Ritz pair of the inverse counts as found.
+    /// Relative residual at which a Ritz pair of the inverse has converged.
     tolerance: f64,
-    /// Relative residual that every mode must reach, where rounding allows it.
+    /// Required relative residual of every mode, unless rounding prevents it.
     residual: f64,
     /// Method of summation.
     sums: Sums,
@@ -86,43 +86,45 @@ impl Accuracy {
     }
 }
 
-/// Mass-normalised modes Φᵀ M Φ = I, by rising frequency.
+/// Mass-normalized modes Φᵀ M Φ = I, in order of ascending frequency.
 #[derive(Clone, Debug)]
 pub struct Modes {
     /// Eigenvalues λ = ω², 1/s².
     pub eigenvalues: Vec<f64>,
-    /// Mode shapes, 1/√kg, one after another: entry `mode * unknowns + 3 * node + axis`.
+    /// Mode shapes, 1/√kg, stored consecutively: entry `mode * unknowns + 3 * node + axis`.
     pub shapes: Vec<f64>,
     /// Number of unknowns, three per node.
     pub unknowns: usize,
     /// Largest relative residual ‖Kφ − λMφ‖ / ‖Kφ‖ of all modes.
     pub max_residual: f64,
-    /// Rigid motions that nothing holds: six of a free body, none of a clamped one.
+    /// Number of rigid-body modes: six for a free body, none for a clamped one.
     pub rigid_motions: usize,
-    /// Wall-clock time of each phase of the search, s.
+    /// Wall-clock time of each phase, s.
     pub seconds: Vec<(Phase, f64)>,
 }
 
 impl Modes {
-    /// Shape of mode `i`, one number per unknown.
+    /// Returns the shape of mode `i`, one number per unknown.
     #[must_use]
     pub fn shape(&self, i: usize) -> &[f64] {
         &self.shapes[i * self.unknowns..(i + 1) * self.unknowns]
     }
 
-    /// Frequency of mode `i`, Hz.
+    /// Returns the frequency of mode `i`, Hz.
     #[must_use]
     pub fn frequency(&self, i: usize) -> f64 {
         self.eigenvalues[i].sqrt() / std::f64::consts::TAU
     }
 }
 
-/// Finds the `wanted` lowest elastic modes. `progress` hears the share of the work that is done, 0..=1 and never falling,
-/// at least once every eight solves; [`ControlFlow::Break`] ends the search.
+/// Computes the `wanted` lowest elastic modes.
+///
+/// `progress` receives the completed fraction, 0..=1 and non-decreasing, at least once every eight solves; returning
+/// [`ControlFlow::Break`] cancels the computation.
 ///
 /// # Errors
-/// [`BakeError::Cancelled`] when `progress` says so.
-/// More modes wanted than there are, a stiffness that cannot be factorized, or a mode whose residual
+/// [`BakeError::Cancelled`] if `progress` cancels.
+/// More modes are requested than exist, the stiffness cannot be factorized, or the residual of a mode
 /// stays above max(1e-8 ‖Kφ‖, 10 ε ‖|K||φ|‖).
 pub fn lowest_modes(
     system: &System,
@@ -132,10 +134,10 @@ pub fn lowest_modes(
     lowest_supported_modes(system, &Constraints::default(), wanted, progress)
 }
 
-/// The lowest modes of a body that is held. Shapes have an entry for every unknown, zero where it is held.
+/// Computes the lowest modes of a supported body. Shapes have an entry for every unknown, zero for fixed ones.
 ///
 /// # Errors
-/// Errors of [`lowest_modes`], and [`BakeError::AllHeld`] if nothing is left to move.
+/// Errors of [`lowest_modes`], and [`BakeError::AllHeld`] if all unknowns are fixed.
 pub fn lowest_supported_modes(
     system: &System,
     constraints: &Constraints,
@@ -145,11 +147,11 @@ pub fn lowest_supported_modes(
     search(system, constraints, wanted, Accuracy::BAKED, progress)
 }
 
-/// The lowest modes, found quickly and less exactly while others wait for them: frequencies are right to six digits, residuals of
-/// shapes may be a few per cent. Their bits are the same on every machine.
+/// Computes the lowest modes quickly at reduced accuracy, for use at run time: frequencies are accurate to six digits, residuals of
+/// shapes may be a few per cent. The result is bit-identical on every machine.
 ///
 /// # Errors
-/// Errors of [`lowest_supported_modes`]; a residual counts as too large only above a tenth.
+/// Errors of [`lowest_supported_modes`], but the limit of the relative residual is 0.1.
 pub fn quick_modes(
     system: &System,
     constraints: &Constraints,

@@ -1,4 +1,4 @@
-//! The order of elimination: minimum degree on the nodes, whose unknowns stay together.
+//! Elimination ordering: minimum degree on the nodes; the unknowns of a node stay together.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::perm::Perm;

@@ -1,4 +1,4 @@
-//! Eight vectors side by side: row after row, so that every kernel works on whole rows at once.
+//! Panels of eight vectors in row-major order, so that every kernel works on whole rows.
 
 use faer::linalg::matmul::matmul;
 use faer::traits::ComplexField;

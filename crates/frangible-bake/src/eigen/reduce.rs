@@ -1,4 +1,4 @@
-//! The problem without its held unknowns, and shapes put back among all unknowns.
+//! Elimination of fixed unknowns, and expansion of shapes to all unknowns.
 
 use faer::sparse::{SparseColMat, SymbolicSparseColMat};
 

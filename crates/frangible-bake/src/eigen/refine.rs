@@ -1,7 +1,7 @@
-//! One step of refinement for modes whose residual is above what rounding allows.
+//! One refinement step for modes whose residual is above the rounding limit.
 //!
-//! An error of a mode along a higher one j shows in the residual multiplied by λ_j: noise of the last digits is all that a
-//! stiff body's residual holds. x − (A + sB)⁻¹ (A x − λ B x) leaves (λ + s) / (λ_j + s) of it.
+//! An error of a mode along a higher mode j appears in the residual multiplied by λ_j, so that the residual of a stiff body
+//! consists mainly of rounding noise. The step x − (A + sB)⁻¹ (A x − λ B x) reduces it by the factor (λ + s) / (λ_j + s).
 
 use faer::sparse::SparseColMat;
 

@@ -1,4 +1,4 @@
-//! Check that a mode solves the eigenvalue problem, made for every mode that is given out.
+//! Check that a mode solves the eigenvalue problem, performed for every returned mode.
 
 use faer::sparse::SparseColMat;
 
@@ -11,8 +11,8 @@ use crate::fem::{Mass, System};
 /// Largest relative residual of a mode, where f64 rounding allows it.
 const LIMIT: f64 = 1e-8;
 
-/// Relative residual ‖Kφ − λMφ‖ / ‖Kφ‖ of one mode, and the limit it must meet: 1e-8, or ten times
-/// the rounding of Kφ itself where that is more (on a thin plate it is 5e-8).
+/// Returns the relative residual ‖Kφ − λMφ‖ / ‖Kφ‖ of a mode, and its limit: 1e-8, or ten times the
+/// rounding error of Kφ if that is larger (on a thin plate it is 5e-8).
 #[must_use]
 pub fn residual(system: &System, eigenvalue: f64, shape: &[f64]) -> (f64, f64) {
     residual_of(system, None, eigenvalue, shape, LIMIT)

@@ -1,4 +1,4 @@
-//! Rigid motions: three translations and three rotations, and those of them that supports leave.
+//! Rigid motions: three translations and three rotations, and those that the supports permit.
 
 use frangible::glam::DVec3;
 
@@ -9,8 +9,8 @@ use crate::eigen::reduce::Reduction;
 use crate::error::BakeError;
 use crate::fem::System;
 
-/// Displacements of the six rigid motions, one after another, 3 × nodes numbers each: unit
-/// translations, then rotations by one radian about axes through the centre of mass.
+/// Returns the displacements of the six rigid motions, 3 × nodes numbers each: unit translations, then
+/// rotations by one radian about axes through the centre of mass.
 #[must_use]
 pub fn rigid_motions(system: &System) -> Vec<Vec<f64>> {
     let centre = centre_of_mass(system);
@@ -37,8 +37,8 @@ fn centre_of_mass(system: &System) -> DVec3 {
     places.map(|(x, m)| *x * *m).sum::<DVec3>() / mass
 }
 
-/// Displacements of the rigid motions that the constraints leave, one after another, 3 × nodes numbers each:
-/// [`rigid_motions`] of a free body, none of a clamped one.
+/// Returns the displacements of the rigid motions that the constraints permit, 3 × nodes numbers each:
+/// those of [`rigid_motions`] for a free body, none for a clamped one.
 #[must_use]
 pub fn remaining_motions(system: &System, constraints: &Constraints) -> Vec<Vec<f64>> {
     let all = rigid_motions(system);

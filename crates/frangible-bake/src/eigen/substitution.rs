@@ -1,7 +1,6 @@
-//! Forward and backward substitution with a supernodal Cholesky factor, eight right-hand sides at once.
+//! Forward and backward substitution with a supernodal Cholesky factor for eight right-hand sides at once.
 //!
-//! A supernode's rows are gathered, worked on as a dense block and scattered again; whole rows of right-hand sides
-//! move at a time.
+//! The rows of a supernode are gathered, processed as a dense block and scattered again, in whole rows of right-hand sides.
 
 use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve::{

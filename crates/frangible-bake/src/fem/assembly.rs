@@ -28,7 +28,7 @@ pub struct System {
     pub mass: Mass,
 }
 
-/// Assembles K and the lumped M. Mass of T10: HRZ, 1/36 of the element to a corner, 4/27 to a mid-edge.
+/// Assembles K and the lumped M. T10 elements use HRZ lumping: 1/36 of the element's mass for a corner, 4/27 for a mid-edge node.
 #[must_use]
 pub fn assemble(positions: &[DVec3], elements: Elements<'_>, material: &Elasticity) -> System {
     match elements {
@@ -73,19 +73,19 @@ fn assemble_with<const N: usize>(
 }
 
 impl System {
-    /// Number of unknowns, three per node.
+    /// Returns the number of unknowns, three per node.
     #[must_use]
     pub fn unknowns(&self) -> usize {
         3 * self.positions.len()
     }
 
-    /// K x for one vector of 3 × nodes numbers, N.
+    /// Returns K x for a vector of 3 × nodes numbers, N.
     #[must_use]
     pub fn multiply(&self, x: &[f64]) -> Vec<f64> {
         self.multiply_with(x, |value| value)
     }
 
-    /// |K| |x|, N: the scale of the rounding of [`System::multiply`].
+    /// Returns |K| |x|, N: the scale of the rounding error of [`System::multiply`].
     #[must_use]
     pub fn multiply_magnitudes(&self, x: &[f64]) -> Vec<f64> {
         self.multiply_with(x, f64::abs)

@@ -1,4 +1,4 @@
-//! Stiffness of one tetrahedron, isotropic linear elasticity.
+//! Stiffness of a tetrahedron in isotropic linear elasticity.
 
 use frangible::Material;
 use frangible::glam::DVec3;
@@ -6,7 +6,7 @@ use frangible::glam::DVec3;
 use crate::fem::quadratic::shape_gradients;
 use crate::mesh::{barycentric_gradients, tet_volume};
 
-/// Constants of the material on which the modes depend.
+/// Material constants that determine the modes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Elasticity {
     /// Young's modulus E, Pa.
@@ -28,7 +28,7 @@ impl From<&Material> for Elasticity {
 }
 
 impl Elasticity {
-    /// Lamé's λ and μ, Pa.
+    /// Returns the Lamé constants λ and μ, Pa.
     #[must_use]
     pub fn lame(&self) -> (f64, f64) {
         let (e, nu) = (self.youngs_modulus, self.poisson_ratio);
@@ -64,7 +64,7 @@ pub(crate) fn add_point<const N: usize>(
     }
 }
 
-/// Stiffness of a quadratic tetrahedron, N/m: 3 × 3 blocks of the node pairs (a, b), b ≤ a only.
+/// Returns the stiffness of a quadratic tetrahedron, N/m: 3 × 3 blocks of the node pairs (a, b) with b ≤ a.
 #[must_use]
 pub fn stiffness_t10(corners: [DVec3; 4], material: &Elasticity) -> [[[[f64; 3]; 3]; 10]; 10] {
     let gradients = barycentric_gradients(corners);
@@ -83,7 +83,7 @@ pub fn stiffness_t10(corners: [DVec3; 4], material: &Elasticity) -> [[[[f64; 3];
     k
 }
 
-/// Stiffness of a linear tetrahedron, N/m: 3 × 3 blocks of the node pairs (a, b), b ≤ a only.
+/// Returns the stiffness of a linear tetrahedron, N/m: 3 × 3 blocks of the node pairs (a, b) with b ≤ a.
 #[must_use]
 pub fn stiffness_t4(corners: [DVec3; 4], material: &Elasticity) -> [[[[f64; 3]; 3]; 4]; 4] {
     let mut k = [[[[0.0; 3]; 3]; 4]; 4];

@@ -1,18 +1,18 @@
-//! Mass matrices: a number per node, or a sparse matrix over the nodes. The three axes do not couple.
+//! Lumped and consistent mass matrices. The three axes are uncoupled.
 
 use faer::sparse::SparseColMat;
 
-/// Mass of the nodes, the same for each of the three axes.
+/// Mass matrix of the nodes, the same for each of the three axes.
 #[derive(Clone, Debug)]
 pub enum Mass {
     /// Mass of each node, kg.
     Lumped(Vec<f64>),
-    /// Lower triangle of ∫ ρ N_a N_b over pairs of nodes, kg; rows rise within a column.
+    /// Lower triangle of ∫ ρ N_a N_b over pairs of nodes, kg; rows ascend within a column.
     Consistent(SparseColMat<usize, f64>),
 }
 
 impl Mass {
-    /// Number of nodes.
+    /// Returns the number of nodes.
     #[must_use]
     pub fn nodes(&self) -> usize {
         match self {
@@ -21,7 +21,7 @@ impl Mass {
         }
     }
 
-    /// Diagonal of the matrix, kg.
+    /// Returns the diagonal of the matrix, kg.
     #[must_use]
     pub fn diagonal(&self) -> Vec<f64> {
         match self {
@@ -33,7 +33,7 @@ impl Mass {
         }
     }
 
-    /// Sum of each row, kg: the share of the body's mass that moves with the node. May be negative at corners.
+    /// Returns the sum of each row, kg: the part of the body's mass assigned to the node. It may be negative at corners.
     #[must_use]
     pub fn row_sums(&self) -> Vec<f64> {
         match self {
@@ -46,7 +46,7 @@ impl Mass {
         }
     }
 
-    /// M x for one vector of 3 × nodes numbers.
+    /// Returns M x for a vector of 3 × nodes numbers.
     #[must_use]
     pub fn multiply(&self, x: &[f64]) -> Vec<f64> {
         match self {

@@ -1,7 +1,7 @@
-//! Linear elasticity on tetrahedra: stiffness and mass, SI units, f64.
+//! Linear elasticity on tetrahedra: stiffness and mass, in SI units and f64.
 //!
-//! Quadratic elements (T10) carry the modes, since linear ones (T4) lock in bending: on a thin plate
-//! they are 50–200 % too stiff. T4 stays for comparison with `[G12]`. [`Cover`] carries shapes whose walls are
+//! The modes are computed on quadratic elements (T10), since linear ones (T4) lock in bending: on a thin plate
+//! they are 50–200 % too stiff. T4 is kept for comparison with `[G12]`. [`Cover`] is for shapes whose walls are
 //! too thin for a conforming mesh of few elements.
 
 mod assembly;

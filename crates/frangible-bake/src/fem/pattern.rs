@@ -1,4 +1,4 @@
-//! Places of the entries of assembled matrices: lower triangles, three unknowns per node.
+//! Sparsity pattern of assembled matrices: lower triangles, three unknowns per node.
 
 use faer::sparse::{SparseColMat, SymbolicSparseColMat};
 

@@ -18,7 +18,7 @@ pub struct QuadraticMesh {
 }
 
 impl QuadraticMesh {
-    /// Adds a node in the middle of every edge.
+    /// Creates a quadratic mesh by adding a node at the middle of every edge.
     #[must_use]
     pub fn new(mesh: &BodyMesh) -> Self {
         let edge = |tet: &[u32; 4], [i, j]: [usize; 2]| (tet[i].min(tet[j]), tet[i].max(tet[j]));
@@ -51,7 +51,7 @@ impl QuadraticMesh {
         }
     }
 
-    /// The mesh in the form that an asset stores.
+    /// Returns the mesh in the format of the asset.
     #[must_use]
     pub fn stored(&self) -> AnalysisMesh {
         let gradients = |e: usize| barycentric_gradients(self.corners(e)).map(|g| g.as_vec3());
@@ -62,14 +62,14 @@ impl QuadraticMesh {
         }
     }
 
-    /// Corner positions of element `e`, m.
+    /// Returns the corner positions of element `e`, m.
     #[must_use]
     pub fn corners(&self, e: usize) -> [DVec3; 4] {
         std::array::from_fn(|k| self.positions[self.elements[e][k] as usize])
     }
 }
 
-/// Values of the ten shape functions at barycentric coordinates `l`: corners L(2L−1), mid-edges 4 L_i L_j.
+/// Returns the values of the ten shape functions at barycentric coordinates `l`: L(2L−1) for corners, 4 L_i L_j for mid-edges.
 #[must_use]
 pub fn shape_values(l: [f64; 4]) -> [f64; 10] {
     let mut values = [0.0; 10];
@@ -82,7 +82,7 @@ pub fn shape_values(l: [f64; 4]) -> [f64; 10] {
     values
 }
 
-/// Gradients (1/m) of the ten shape functions at barycentric coordinates `l`, from ∇L (1/m).
+/// Returns the gradients (1/m) of the ten shape functions at barycentric coordinates `l`, from ∇L (1/m).
 #[must_use]
 pub fn shape_gradients(l: [f64; 4], gradients: &[DVec3; 4]) -> [DVec3; 10] {
     let mut out = [DVec3::ZERO; 10];

@@ -1,5 +1,5 @@
-//! Small dense matrices on the calling thread alone: pieces are solved side by side, and their bits must not depend on the number of
-//! threads, nor on the machine.
+//! Small dense matrices, computed on the calling thread only: pieces are solved in parallel, and results must not depend on the
+//! number of threads or on the machine.
 
 use crate::eigen::basis::Block;
 use crate::eigen::portable::{self, Entries, symmetric};

@@ -1,17 +1,17 @@
-//! Errors of finding the modes of a piece.
+//! Errors of computing the modes of a piece.
 
 use crate::BakeError;
 use frangible::InputError;
 use thiserror::Error;
 
-/// Error of finding the modes of a piece, which then does not break again.
+/// Error of computing the modes of a piece, which then cannot break again.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum PieceError {
     /// The finite elements of the piece are invalid.
     #[error(transparent)]
     Elements(#[from] BakeError),
-    /// The modes found do not fit the piece.
+    /// The computed modes do not match the piece.
     #[error(transparent)]
     Body(#[from] InputError),
     /// A matrix that cannot be factored.

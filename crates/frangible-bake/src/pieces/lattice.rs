@@ -1,4 +1,4 @@
-//! The elements of a piece: a lattice that covers it, integrated over its own tetrahedra.
+//! Analysis elements of a piece: a covering lattice, integrated over the piece's tetrahedra.
 
 use std::sync::Arc;
 

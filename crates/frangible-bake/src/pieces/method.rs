@@ -1,14 +1,14 @@
-//! Names of the methods.
+//! Methods of computing the modes of pieces.
 
-/// Method by which the modes of a piece are found.
+/// Method of computing the modes of a piece.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Method {
-    /// Its parent's modes on its own elements ([`parent_modes`](crate::pieces::parent_modes())).
+    /// The parent's modes on the piece's own elements ([`parent_modes`](crate::pieces::parent_modes())).
     ParentModes,
-    /// A small modal analysis of its own ([`reanalysis`](crate::pieces::reanalysis())); [`Method::ParentModes`] until it is ready.
+    /// A small modal analysis of the piece ([`reanalysis`](crate::pieces::reanalysis())); [`Method::ParentModes`] until it is ready.
     Reanalysis,
-    /// The method that was measured to be best: see [`Pieces::method_for`](crate::pieces::Pieces::method_for).
+    /// The most accurate method in measurements: see [`Pieces::method_for`](crate::pieces::Pieces::method_for).
     #[default]
     Auto,
 }

@@ -1,9 +1,9 @@
-//! Vibration of pieces of broken bodies, so that they break again: two ways, and [`Pieces`], which chooses.
+//! Vibration of pieces of broken bodies, so that they can break again: two methods, and [`Pieces`], which chooses between them.
 //!
-//! Accuracy and cost of each way are measured by `frangible-lab pieces` (`docs/recursive.md`).
+//! `frangible-lab pieces` measures the accuracy and cost of each method (`docs/recursive.md`).
 //!
-//! Every piece gets modes of its own. Pieces that react without inertia, and modes borrowed from similar shapes, were measured
-//! to decide worse (`docs/recursive.md`).
+//! Every piece gets its own modes. Quasi-static pieces and modes of similar shapes were measured to predict fracture less
+//! accurately (`docs/recursive.md`).
 
 #[cfg(feature = "solver")]
 mod dense;

@@ -1,4 +1,4 @@
-//! Choice of the method by which the modes of a piece are found.
+//! Choice of the method of computing the modes of a piece.
 
 use std::sync::Arc;
 
@@ -16,15 +16,15 @@ const PER_TET: f64 = 12e-6;
 /// take longer, rounded up.
 const PER_ELEMENT: f64 = 0.4e-3;
 
-/// Finds the modes of pieces, by one of two methods.
+/// Computes the modes of pieces by one of two methods.
 #[derive(Debug)]
 #[non_exhaustive]
 pub struct Pieces {
     /// The method.
     pub method: Method,
-    /// Quadratic elements of a piece, about. Default none: by its size, see [`Pieces::elements_for`].
+    /// Approximate number of quadratic elements of a piece. Default `None`: chosen by size, see [`Pieces::elements_for`].
     pub elements: Option<usize>,
-    /// Modes of a piece at most. Default 30.
+    /// Largest number of modes of a piece. Default 30.
     pub modes: usize,
 }
 
@@ -35,7 +35,7 @@ impl Default for Pieces {
 }
 
 impl Pieces {
-    /// A model that finds modes by this method.
+    /// Creates a model with this method.
     #[must_use]
     pub fn new(method: Method) -> Self {
         Self {
@@ -45,8 +45,8 @@ impl Pieces {
         }
     }
 
-    /// The method that serves a piece in the end. [`Method::Auto`] gives every piece its own modes:
-    /// measured on fragments of all scenes (`docs/recursive.md`), nothing as quick decides right more often.
+    /// Returns the final method for a piece. [`Method::Auto`] computes every piece's own modes: in measurements on fragments of all
+    /// scenes (`docs/recursive.md`), no method of similar speed was correct more often.
     #[must_use]
     pub fn method_for(&self) -> Method {
         match self.method {
@@ -55,9 +55,9 @@ impl Pieces {
         }
     }
 
-    /// Quadratic elements of a piece of this number of uncut tetrahedra, about: [`Pieces::elements`], or 300 up to 2000
-    /// tetrahedra and more with the root of their number from there, up to 1000. A large piece is a large part of a body: its
-    /// walls bend and turn more often from end to end, and on 300 elements its frequencies are 10 % too high in the median.
+    /// Returns the approximate number of quadratic elements for a piece with `tets` uncut tetrahedra: [`Pieces::elements`] if set;
+    /// otherwise 300 up to 2000 tetrahedra, then growing with the square root of their number up to 1000. The walls of a large piece
+    /// bend more often along its length; with 300 elements its frequencies would be 10 % too high in the median.
     #[must_use]
     pub fn elements_for(&self, tets: usize) -> usize {
         let by_size = || {
@@ -67,10 +67,10 @@ impl Pieces {
         self.elements.unwrap_or_else(by_size)
     }
 
-    /// Finds the modes of a piece of `parent`, by one method and at once.
+    /// Computes the modes of a piece of `parent` with `method`, synchronously.
     ///
     /// # Errors
-    /// A piece that has no elements, or whose matrices cannot be solved.
+    /// The piece has no elements, or its matrices cannot be solved.
     pub fn elastic(
         &self,
         method: Method,

@@ -1,8 +1,9 @@
 //! The parent's modes on the piece's own elements, with the piece's mass.
 //!
-//! A Ritz method: displacements of the piece are sums of the parent's mode shapes and of rigid motions. K and M of these few
-//! are integrated over the piece alone, one point per tetrahedron, and the small eigenproblem gives modes of the piece:
-//! combinations of the parent's, orthogonal to its rigid motions. Too stiff, since they cannot follow the new free faces.
+//! A Ritz method: displacements of the piece are combinations of the parent's mode shapes and of rigid motions. Their small
+//! stiffness and mass matrices are integrated over the piece only, with one point per tetrahedron. The eigenvalue problem gives modes
+//! that combine the parent's and are orthogonal to the piece's rigid motions. They are too stiff, since they do not satisfy the
+//! boundary conditions on the new free faces.
 
 use std::sync::Arc;
 
@@ -22,10 +23,10 @@ const DEPENDENT: f64 = 1e-7;
 /// Most of the parent's modes that are tried.
 const MOST: usize = 60;
 
-/// The modes of a piece as combinations of its parent's.
+/// Computes the modes of a piece as combinations of its parent's modes.
 ///
 /// # Errors
-/// A piece without uncut tetrahedra, or shapes that have no eigenvalues.
+/// The piece has no uncut tetrahedra, or the eigenvalue problem has no solution.
 pub fn parent_modes(portion: &Arc<Portion>, parent: &Body) -> Result<Elastic, PieceError> {
     let asset = &**parent.asset();
     let (analysis, tets, nodes, old) = restricted(portion, asset);

@@ -1,4 +1,4 @@
-//! A small modal analysis of the piece itself.
+//! A small modal analysis of the piece.
 
 use std::sync::Arc;
 
@@ -9,10 +9,10 @@ use frangible::internals::piece::{Elastic, Portion};
 use crate::pieces::PieceError;
 use crate::pieces::lattice::Lattice;
 
-/// Modes of the piece on about `elements` quadratic elements, at most `modes` of them.
+/// Computes at most `modes` modes of the piece on about `elements` quadratic elements.
 ///
 /// # Errors
-/// A piece without volume, or modes that are not found.
+/// The piece has no volume, or its modes cannot be computed.
 pub fn reanalysis(
     portion: &Arc<Portion>,
     elements: usize,

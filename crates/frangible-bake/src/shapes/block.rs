@@ -1,4 +1,4 @@
-//! Boxes, plates and rods, and shapes into which a box is bent.
+//! Boxes, plates and rods, and shapes made by bending a box.
 
 use frangible::glam::DVec3;
 

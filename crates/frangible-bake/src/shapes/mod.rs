@@ -64,7 +64,7 @@ impl Shape {
         Self::Box { size }
     }
 
-    /// A pane or plate: width, depth, thickness, m.
+    /// Makes a pane or plate of `width` × `depth` × `thickness`, m.
     #[must_use]
     pub const fn plate(width: f64, depth: f64, thickness: f64) -> Self {
         Self::Box {
@@ -72,7 +72,7 @@ impl Shape {
         }
     }
 
-    /// A square rod along x, m.
+    /// Makes a square rod along x, m.
     #[must_use]
     pub const fn rod(length: f64, side: f64) -> Self {
         Self::Box {
@@ -120,16 +120,16 @@ impl Shape {
         }
     }
 
-    /// A predefined solid by its name in [`READY_SHAPES`], such as a rabbit or a piggy bank; metres, z up.
+    /// Returns a predefined solid by its name in [`READY_SHAPES`], such as a rabbit or a piggy bank, in metres with z up.
     #[must_use]
     pub fn ready(name: &str) -> Option<Self> {
         solid::ready(name).map(Self::Solid)
     }
 
-    /// Volume of the exact shape, m³; for a solid, measured on a grid to about one per cent.
+    /// Returns the volume of the exact shape, m³; for a solid, computed on a grid to about one per cent.
     ///
     /// # Errors
-    /// The invalid number or station.
+    /// A value or a station of the profile is invalid.
     pub fn volume(&self) -> Result<f64, BakeError> {
         match self {
             Self::Box { size } => block::validate(*size).map(|()| size.iter().product()),
@@ -140,26 +140,27 @@ impl Shape {
         }
     }
 
-    /// Element size of the default analysis mesh (quadratic, about 3 000 elements).
+    /// Returns the element size of the default analysis mesh (quadratic, about 3 000 elements).
     ///
     /// # Errors
-    /// The invalid number or station.
+    /// A value or a station of the profile is invalid.
     pub fn analysis_size(&self) -> Result<MeshSize, BakeError> {
         self.size_for(ANALYSIS_TETS)
     }
 
-    /// Element size of the default fracture mesh (linear, about 42 000 elements).
+    /// Returns the element size of the default fracture mesh (linear, about 42 000 elements).
     ///
     /// # Errors
-    /// The invalid number or station.
+    /// A value or a station of the profile is invalid.
     pub fn fracture_size(&self) -> Result<MeshSize, BakeError> {
         self.size_for(FRACTURE_TETS)
     }
 
-    /// Largest element size that gives at least `tets` tetrahedra, to a few per cent; for a solid, the size for about that many.
+    /// Returns the largest element size, to a few per cent, that gives at least `tets` tetrahedra; for a solid, the size for about that
+    /// many.
     ///
     /// # Errors
-    /// The invalid number or station.
+    /// A value or a station of the profile is invalid.
     pub fn size_for(&self, tets: f64) -> Result<MeshSize, BakeError> {
         if let Self::Solid(shape) = self {
             return Ok(solid::size_for(solid::volume(shape)?, tets));
@@ -185,10 +186,10 @@ impl Shape {
         })
     }
 
-    /// Regular mesh for the modal analysis.
+    /// Generates the regular mesh for the modal analysis.
     ///
     /// # Errors
-    /// A size or profile that cannot be meshed.
+    /// The size or profile cannot be meshed.
     pub fn analysis_mesh(&self, size: MeshSize) -> Result<BodyMesh, BakeError> {
         self.check(size)?;
         match self {
@@ -202,10 +203,10 @@ impl Shape {
         }
     }
 
-    /// Irregular mesh for cracks, the same for the same seed.
+    /// Generates the irregular fracture mesh, which depends only on the seed.
     ///
     /// # Errors
-    /// A size or profile that cannot be meshed.
+    /// The size or profile cannot be meshed.
     pub fn fracture_mesh(&self, size: MeshSize, seed: u64) -> Result<BodyMesh, BakeError> {
         self.check(size)?;
         match self {

@@ -1,4 +1,4 @@
-//! Ready-made vessels and dishes, in metres; z is up, the axis is the z-axis.
+//! Predefined vessels and dishes, in metres, with their axis along z, upwards.
 
 use crate::shapes::profile::Station;
 

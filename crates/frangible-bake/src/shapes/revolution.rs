@@ -1,4 +1,4 @@
-//! Bodies of revolution: rings of vertices along the profile, as many in each as fit its girth.
+//! Bodies of revolution: rings of vertices along the profile, with a number of vertices proportional to the circumference.
 
 use std::f64::consts::{PI, TAU};
 

@@ -30,7 +30,7 @@ pub(crate) const SHELL_ELEMENTS: f64 = 5000.0;
 /// A wall above this share of the cube root of the volume is no thin one: a ball is 1.2 of it thick, a cube 1.
 const THICK: f64 = 0.5;
 
-/// A solid, with settings for filling it with tetrahedra.
+/// A solid, with settings for meshing it with tetrahedra.
 #[derive(Clone)]
 pub struct SolidShape {
     /// The solid, m.
@@ -44,7 +44,7 @@ pub struct SolidShape {
 }
 
 impl SolidShape {
-    /// A solid without thin walls, with about 42 000 and at most 250 000 tetrahedra.
+    /// Creates the settings for a solid without thin walls: about 42 000 and at most 250 000 tetrahedra.
     #[must_use]
     pub fn new(solid: Arc<dyn Solid>) -> Self {
         Self {

@@ -39,14 +39,14 @@ pub struct TetShape {
     pub body: Arc<TetBody>,
     /// True if they were quadratic elements in the file.
     pub quadratic: bool,
-    /// Elements that carry the modes.
+    /// Elements used for the modes.
     pub analysis: AnalysisChoice,
     /// Named parts, by their nodes in `body`.
     pub groups: Arc<Vec<NodeGroup>>,
 }
 
 impl TetShape {
-    /// A body of linear elements without groups.
+    /// Creates a body of linear elements without groups.
     #[must_use]
     pub fn new(body: TetBody) -> Self {
         Self {
@@ -57,7 +57,7 @@ impl TetShape {
         }
     }
 
-    /// Nodes of the named part.
+    /// Returns the nodes of the named part.
     #[must_use]
     pub fn group(&self, name: &str) -> Option<&[u32]> {
         let group = self.groups.iter().find(|g| g.name == name)?;
@@ -95,7 +95,7 @@ impl TetShape {
         parts
     }
 
-    /// Returns true if the body's own elements carry the modes.
+    /// Returns true if the body's own elements are used for the modes.
     #[must_use]
     pub fn carries_modes(&self) -> bool {
         match self.analysis {

@@ -19,7 +19,7 @@ pub use zone::{Patch, Zone};
 /// continuous.
 ///
 /// # Errors
-/// A zone with a number that is not finite, a radius that is not above zero, or a normal without direction.
+/// A zone has a value that is not finite, a radius that is not positive, or a zero normal.
 pub fn from_patches(asset: &Asset, patches: &[Patch]) -> Result<Fields, InputError> {
     patched(Fields::default(), asset, patches)
 }

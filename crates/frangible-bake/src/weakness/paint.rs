@@ -1,6 +1,6 @@
 //! Weakness painted with vertex colours.
 //!
-//! Paint is read off the drawn surface, since welding its vertices would mix colours at seams.
+//! Colours are read from the rendered surface, since welding its vertices would mix colours at seams.
 
 use frangible::internals::{Factors, Fields};
 use frangible::{Asset, InputError};
@@ -8,21 +8,21 @@ use frangible::{Asset, InputError};
 /// A channel of a colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Channel {
-    /// The first.
+    /// Red, the first channel.
     Red,
-    /// The second.
+    /// Green, the second channel.
     Green,
-    /// The third.
+    /// Blue, the third channel.
     Blue,
-    /// Opacity.
+    /// Alpha, the opacity.
     Alpha,
 }
 
 impl Channel {
-    /// All of them, in the order of a colour's numbers.
+    /// All channels, in the order of a colour's components.
     pub const ALL: [Self; 4] = [Self::Red, Self::Green, Self::Blue, Self::Alpha];
 
-    /// Its name, lower case.
+    /// Returns the name of the channel in lower case.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -33,7 +33,7 @@ impl Channel {
         }
     }
 
-    /// The channel of this name.
+    /// Returns the channel with this name.
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|channel| channel.name() == name)
@@ -65,10 +65,10 @@ impl Paint {
         }
     }
 
-    /// Checks its numbers.
+    /// Checks the factors.
     ///
     /// # Errors
-    /// A factor that is not finite, or not above zero (weak points: below zero).
+    /// A factor is not finite or not positive, or the factor of weak points is negative.
     pub fn check(&self) -> Result<(), InputError> {
         for (what, factors, least) in [
             ("strength", self.strength, f32::MIN_POSITIVE),
@@ -111,7 +111,7 @@ impl Paint {
 /// Colours reach halfway through a wall; to weaken a wall through its whole thickness, paint both sides.
 ///
 /// # Errors
-/// An asset without vertex colours, or an invalid factor.
+/// The asset has no vertex colours, or a factor is invalid.
 pub fn from_paint(asset: &Asset, paint: &[Paint]) -> Result<Fields, InputError> {
     paint.iter().try_for_each(Paint::check)?;
     if paint.is_empty() {

@@ -5,7 +5,7 @@ use frangible::glam::Vec3;
 use frangible::internals::Factors;
 use frangible::internals::error::{finite, positive};
 
-/// A region of space, m, body frame.
+/// A region of space, m, in the body frame.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Zone {
@@ -13,9 +13,9 @@ pub enum Zone {
     Box([Vec3; 2]),
     /// A ball.
     Sphere {
-        /// Its centre.
+        /// Centre of the ball.
         centre: Vec3,
-        /// Its radius.
+        /// Radius of the ball.
         radius: f32,
     },
     /// The half-space behind a plane.
@@ -35,7 +35,7 @@ pub enum Zone {
 }
 
 impl Zone {
-    /// Returns true if a point lies in it.
+    /// Returns true if a point lies in the zone.
     #[must_use]
     pub fn contains(&self, p: Vec3) -> bool {
         match self {
@@ -51,10 +51,10 @@ impl Zone {
         }
     }
 
-    /// Checks its numbers.
+    /// Checks the values of the zone.
     ///
     /// # Errors
-    /// A number that is not finite, a radius that is not above zero, a normal without direction, a line without points.
+    /// A value is not finite, a radius is not positive, a normal is zero, or a line has no points.
     pub fn check(&self) -> Result<(), InputError> {
         let radius_of = |radius: f32| {
             positive("the radius of a weak zone", f64::from(radius), "m").map_err(InputError::from)

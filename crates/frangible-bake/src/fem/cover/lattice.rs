@@ -1,8 +1,8 @@
 //! Body-centred cubic lattice: corners and centres of cubes, filled by congruent tetrahedra.
 //!
-//! Each tetrahedron spans the centres of two adjacent cubes and one edge of the face between them, twelve to
-//! a cube. Its faces lie in the planes x ± y, y ± z, z ± x = whole numbers (lengths in cube sides), so that
-//! cutting a body along those planes sorts it into the cells.
+//! Each tetrahedron spans the centres of two adjacent cubes and one edge of the face between them; there are
+//! twelve per cube. Its faces lie in the planes x ± y, y ± z, z ± x = integer (in units of the cube side), so
+//! that cutting a body along those planes divides it among the cells.
 
 use frangible::glam::DVec3;
 
@@ -12,7 +12,7 @@ use crate::mesh::barycentric_gradients;
 /// One tetrahedron of the lattice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Cell {
-    /// Cube below the face whose edge the cell holds.
+    /// Cube below the face whose edge belongs to the cell.
     cube: [i32; 3],
     /// 4 × axis across the face + 2 × number (0 or 1) of the axis in the face + number of the side.
     kind: u8,

@@ -1,10 +1,10 @@
-//! Quadratic elements of a regular lattice that merely cover a body, for shapes whose walls are too thin for
-//! a conforming mesh of few elements.
+//! Quadratic elements of a regular lattice that covers a body without conforming to it, for shapes whose walls are too thin
+//! for a conforming mesh of few elements.
 //!
-//! Stiffness and mass are integrated exactly over the body alone, by cutting its tetrahedra along the planes of the
-//! lattice: a Ritz method, whose frequencies fall towards the true ones as the elements grow more.
+//! Stiffness and mass are integrated exactly over the body only, by cutting its tetrahedra along the planes of the
+//! lattice. This is a Ritz method: frequencies converge from above as the number of elements increases.
 //!
-//! If two walls share a cell of the lattice, the cell has a copy for each of them. Barycentric coordinates of embedded points
+//! If two walls pass through the same cell of the lattice, the cell is duplicated for each of them. Barycentric coordinates of embedded points
 //! may be slightly negative.
 
 mod cut;
@@ -51,11 +51,11 @@ const SMALL: f64 = 1.0 / 24.0;
 /// A lattice of quadratic elements that covers a body.
 #[derive(Clone, Debug)]
 pub struct Cover {
-    /// The elements; where parts of a body are near but not joined, several lie in the same place.
+    /// The elements; they are duplicated where parts of the body are close but not connected.
     pub mesh: QuadraticMesh,
-    /// Element that carries the centroid of each tetrahedron of the body.
+    /// Element that contains the centroid of each tetrahedron of the body.
     pub element_of_tet: Vec<u32>,
-    /// Element that carries each node of the body.
+    /// Element that contains each node of the body.
     pub element_of_node: Vec<u32>,
     /// Side of the lattice's cubes, m; an element has a twelfth of their volume.
     pub side: f64,
@@ -63,18 +63,20 @@ pub struct Cover {
 }
 
 impl Cover {
-    /// Covers a body by about `elements_wanted` elements: within a few per cent, but no finer than a sixteenth of the
-    /// body's longest edge to a cube.
+    /// Covers a body with `elements_wanted` elements to within a few per cent; the cubes are no smaller than a sixteenth of the
+    /// body's longest edge.
     ///
     /// # Errors
-    /// No tetrahedra, one without volume or with a node that is not there, or no elements wanted.
+    /// The body has no tetrahedra, a tetrahedron has no volume or an invalid node, or `elements_wanted` is 0.
     pub fn new(body: &BodyMesh, elements_wanted: usize) -> Result<Self, BakeError> {
         Self::of(body, &face_pairs(body), elements_wanted, false)
     }
 
-    /// Covers a body whose tetrahedra hang together at `faces`, pairs of them: two elements on both sides of a crack
-    /// are not joined. Made quickly, since others wait: the number of elements is met within a fifth, on the calling
-    /// thread alone, since pieces are covered side by side.
+    /// Covers a body whose tetrahedra are connected at `faces`, given as pairs of tetrahedra; elements on opposite sides of a
+    /// crack are not connected.
+    ///
+    /// For speed at run time, the requested number of elements is met to within a fifth. The work runs on the calling thread
+    /// only, since pieces are covered in parallel.
     ///
     /// # Errors
     /// Errors of [`Cover::new`].
@@ -126,7 +128,7 @@ impl Cover {
         })
     }
 
-    /// The elements as an asset stores them.
+    /// Returns the elements in the format of the asset.
     #[must_use]
     pub fn analysis_mesh(&self) -> AnalysisMesh {
         self.mesh.stored()
@@ -147,7 +149,7 @@ impl Cover {
     }
 
     /// Locates the tetrahedra and nodes of the body in the elements. Barycentric coordinates are slightly
-    /// negative where a sliver of the body is carried by the element next to it.
+    /// negative where a sliver of the body is assigned to a neighbouring element.
     #[must_use]
     pub fn embedding(&self, body: &BodyMesh) -> Embedding {
         let embed = |element: u32, p: DVec3| EmbeddedPoint {
@@ -177,8 +179,10 @@ pub fn assemble_cover(cover: &Cover, material: &Elasticity) -> System {
     assemble_supported_cover(cover, material, &BodyMesh::default(), &[])
 }
 
-/// Assembles the elements of a body that is held at nodes of its own: `held` has the axes of each node of `body`, which is the one
-/// that is covered, or nothing. Springs hold it there: stiff, but no stiffer than the elements can follow.
+/// Assembles the elements of a body with supported nodes.
+///
+/// `held` lists the fixed axes of each node of `body`, the covered body, or is empty. The supports are springs, as stiff as the
+/// elements can resolve.
 #[must_use]
 pub fn assemble_supported_cover(
     cover: &Cover,

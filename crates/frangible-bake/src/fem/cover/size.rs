@@ -1,4 +1,4 @@
-//! Size of the cells for a wanted number of elements.
+//! Cell size for a requested number of elements.
 
 use frangible::glam::DVec3;
 

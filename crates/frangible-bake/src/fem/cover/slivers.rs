@@ -1,7 +1,7 @@
-//! Components that fill next to nothing of their cell are carried by the element next to them.
+//! Assigns components that fill almost nothing of their cell to a neighbouring element.
 //!
-//! They cost unknowns, carry little, and make the system ill-conditioned. None is given away that alone ties its
-//! neighbours together: they would hang by an edge.
+//! Such components add unknowns, contribute little stiffness and make the system ill-conditioned. A component that is the only
+//! connection between its neighbours is kept; otherwise they would be connected only along an edge.
 
 use crate::fem::cover::lattice::{CELL_VOLUME, Cell, Quarters};
 
@@ -13,7 +13,7 @@ const SLIVER: f64 = 1e-2;
 /// Face contacts between components: `contacts[starts[c]..starts[c + 1]]` are those of component c.
 pub(crate) struct Contacts {
     starts: Vec<usize>,
-    /// Neighbour, and about the area between the two.
+    /// Neighbour, and the approximate area of the contact with it.
     contacts: Vec<(u32, f64)>,
 }
 

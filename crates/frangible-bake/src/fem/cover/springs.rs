@@ -1,7 +1,7 @@
-//! Springs that hold a covered body where it is supported: the nodes of the elements are not on the body.
+//! Springs that support a covered body, whose element nodes do not lie on the body.
 //!
-//! On a conforming mesh held nodes lose their unknowns. Here springs at the held fine nodes stand in for that; a cantilever's
-//! frequencies are 0.5–0.8 % low.
+//! On a conforming mesh, the unknowns of supported nodes are eliminated. Here, springs at the supported fine nodes replace this
+//! constraint; the frequencies of a cantilever are 0.5–0.8 % too low.
 
 use frangible::glam::DVec3;
 use frangible::internals::TetMesh;

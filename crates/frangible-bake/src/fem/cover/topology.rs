@@ -1,7 +1,7 @@
-//! Elements of the parts of a body, and the nodes that elements share.
+//! Elements of the parts of a body, and the nodes shared by elements.
 //!
-//! Parts of one cell that do not hang together there get an element each, and elements share a node only
-//! where their parts hang together: two walls that pass through one cell stay apart.
+//! Parts of a cell that are not connected within it get an element each, and elements share a node only where
+//! their parts are connected, so that two walls through one cell remain separate.
 //! M. Nesme, P. G. Kry, L. Jeřábková, F. Faure, Preserving topology and elasticity for embedded deformable
 //! models, SIGGRAPH 2009.
 
