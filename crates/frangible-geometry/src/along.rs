@@ -7,7 +7,7 @@ use glam::{DVec3, Vec3};
 
 use super::Rows;
 
-/// The ways along a triangle surface.
+/// Geodesic distances on a triangle surface.
 pub struct AlongSurface<'a> {
     positions: &'a [Vec3],
     triangles: &'a [[u32; 3]],
@@ -15,7 +15,7 @@ pub struct AlongSurface<'a> {
 }
 
 impl<'a> AlongSurface<'a> {
-    /// The ways along these triangles; every index must name a position.
+    /// Prepares these triangles; every index must refer to a position.
     #[must_use]
     pub fn new(positions: &'a [Vec3], triangles: &'a [[u32; 3]]) -> Self {
         Self {
@@ -25,9 +25,11 @@ impl<'a> AlongSurface<'a> {
         }
     }
 
-    /// Distance of each vertex from the nearest of the sources, m, over the triangles that are `open`; infinite where no way
-    /// leads. By fronts that march from triangle to triangle [Kimmel & Sethian 1998]: exact before a straight line of sources
-    /// on a flat surface without obtuse triangles, else an upper bound, a few hundredths too large.
+    /// Returns the distance of each vertex from the nearest source, m, over the triangles that are `open`; infinite for unreachable
+    /// vertices.
+    ///
+    /// Fast marching on triangles (Kimmel and Sethian 1998): exact in front of a straight line of sources on a flat surface without
+    /// obtuse triangles, otherwise an upper bound that is a few per cent too large.
     #[must_use]
     pub fn distances(&self, sources: &[u32], open: impl Fn(usize) -> bool) -> Vec<f64> {
         let mut distances = vec![f64::INFINITY; self.positions.len()];
@@ -68,7 +70,7 @@ impl<'a> AlongSurface<'a> {
         distances
     }
 
-    /// The mean over the corners of each triangle.
+    /// Returns the mean over the corners of each triangle.
     #[must_use]
     pub fn at_triangles(&self, distances: &[f64]) -> Vec<f64> {
         let mean = |t: &[u32; 3]| t.iter().map(|&v| distances[v as usize]).sum::<f64>() / 3.0;

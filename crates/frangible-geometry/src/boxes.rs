@@ -1,4 +1,4 @@
-//! Eight boxes side by side.
+//! Groups of eight boxes, tested together.
 
 use glam::Vec3;
 

@@ -1,17 +1,17 @@
-//! Tables of edges, faces and the like, each among a few mesh nodes.
+//! Tables of edges, faces and similar entities that are defined by a few mesh nodes.
 
-/// Entries by their lowest node and a key: a chain per node, numbered in the order they came. Costs
-/// memory for its entries, not for the mesh, and needs no hash.
+/// Entries by their lowest node and a key, stored as a linked list per node and numbered in the order of insertion. Lookups
+/// need no hashing.
 #[derive(Debug)]
 pub struct ByNode<K> {
-    /// Number plus one of each node's latest entry, 0 for none.
+    /// Number of each node's latest entry plus one; 0 if there is none.
     latest: Vec<u32>,
-    /// Each entry's key, and the node's entry before it.
+    /// Key of each entry, and the previous entry of the same node.
     entries: Vec<(K, u32)>,
 }
 
 impl<K: Copy + PartialEq> ByNode<K> {
-    /// A table of no entries, for this number of nodes.
+    /// Creates an empty table for this number of nodes.
     #[must_use]
     pub fn new(node_count: usize) -> Self {
         Self {
@@ -20,7 +20,7 @@ impl<K: Copy + PartialEq> ByNode<K> {
         }
     }
 
-    /// Number of the entry at a node with a key.
+    /// Returns the number of the entry with this node and key.
     #[must_use]
     pub fn find(&self, node: u32, key: K) -> Option<u32> {
         let mut at = self.latest[node as usize];
@@ -34,7 +34,7 @@ impl<K: Copy + PartialEq> ByNode<K> {
         None
     }
 
-    /// Adds an entry that is not there yet.
+    /// Adds an entry, which must not exist yet.
     pub fn add(&mut self, node: u32, key: K) {
         let latest = &mut self.latest[node as usize];
         self.entries.push((key, *latest));

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-/// Weights of the closest point of a triangle: inside, on an edge or at a corner
-/// [Ericson 2005, *Real-Time Collision Detection*, §5.1.5].
+/// Returns the barycentric coordinates of the closest point of a triangle, which may be inside, on an edge or at a corner
+/// (Ericson 2005, *Real-Time Collision Detection*, §5.1.5).
 #[must_use]
 pub fn closest_on_triangle([a, b, c]: [DVec3; 3], p: DVec3) -> [f64; 3] {
     let (ab, ac, ap) = (b - a, c - a, p - a);

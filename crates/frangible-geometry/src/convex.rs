@@ -1,9 +1,9 @@
-//! Convex parts of a body made fewer and simpler, for colliders of engines.
+//! Reduction of the number and complexity of convex parts, for colliders of physics engines.
 
 use glam::Vec3;
 
-/// Convex parts, neighbours put together until at most `most` are left: halved again and again at the median across the
-/// longest side of the box of their middles.
+/// Merges neighbouring convex parts into at most `most` parts, by recursive median splits along the longest side of the bounding
+/// box of their centres.
 #[must_use]
 pub fn merged_parts(parts: Vec<&[Vec3]>, most: usize) -> Vec<Vec<Vec3>> {
     if parts.len() <= most.max(1) {
@@ -27,8 +27,8 @@ pub fn merged_parts(parts: Vec<&[Vec3]>, most: usize) -> Vec<Vec<Vec3>> {
     all
 }
 
-/// Points welded on a grid of 1e-5 of their extent, then at most the extreme ones along evenly spread directions:
-/// nearly coincident points are what breaks hull algorithms.
+/// Reduces points to at most `most`: welds them on a grid of 1e-5 of their extent, since nearly coincident points break hull
+/// algorithms, then keeps the extreme ones along evenly spread directions.
 #[must_use]
 pub fn thinned(points: &[Vec3], most: usize) -> Vec<Vec3> {
     let (low, high) = bounds(points);
@@ -120,7 +120,8 @@ fn spread_direction(k: usize, n: usize) -> Vec3 {
     Vec3::new(r * cos, r * sin, z)
 }
 
-/// Half the sides of a body that is a box about the origin, along the axes: it fills its bounds to a hundred-thousandth of their volume.
+/// Returns the half-extents if the points form an axis-aligned box about the origin, that is, if `volume` equals that of their
+/// bounding box to 1e-5.
 #[must_use]
 pub fn box_of(points: &[Vec3], volume: f64) -> Option<Vec3> {
     let (low, high) = bounds(points);
@@ -130,7 +131,7 @@ pub fn box_of(points: &[Vec3], volume: f64) -> Option<Vec3> {
     (size.is_finite() && fills && off <= 1e-4 * size.max_element()).then_some(0.5 * size)
 }
 
-/// The box about points: its lowest and highest corner, infinite where there are none.
+/// Returns the lowest and highest corner of the bounding box of points, infinite without points.
 #[must_use]
 pub fn bounds(points: &[Vec3]) -> (Vec3, Vec3) {
     points.iter().fold(

@@ -1,4 +1,4 @@
-//! Sets that are joined.
+//! Disjoint sets (union-find).
 
 /// Union-find with path halving; the lower number becomes the root.
 #[derive(Clone, Debug)]
@@ -7,7 +7,7 @@ pub struct DisjointSets {
 }
 
 impl DisjointSets {
-    /// Makes a set of its own of each of `count` numbers.
+    /// Creates `count` sets with one number each.
     #[must_use]
     pub fn new(count: usize) -> Self {
         Self {
@@ -15,7 +15,7 @@ impl DisjointSets {
         }
     }
 
-    /// The root of the set that a number is in.
+    /// Returns the root of the set that contains a number.
     pub fn find(&mut self, mut v: u32) -> u32 {
         while self.parent[v as usize] != v {
             let above = self.parent[self.parent[v as usize] as usize];
@@ -25,7 +25,7 @@ impl DisjointSets {
         v
     }
 
-    /// Makes one set of two. Returns the root of both from now on.
+    /// Merges two sets and returns the root of the result.
     pub fn join(&mut self, a: u32, b: u32) -> u32 {
         let (a, b) = (self.find(a), self.find(b));
         self.parent[a.max(b) as usize] = a.min(b);

@@ -1,12 +1,12 @@
 //! The meshes of bodies and of their pieces, and queries on them.
 //!
-//! - [`TetMesh`]: linear tetrahedra with their neighbours; [`TriMesh`]: the closed surface of a piece; [`RenderMesh`]: its drawn mesh;
-//! - [`RenderSurface`]: the surface that an author drew, and [`RenderIndex`], which divides it among the pieces;
+//! - [`TetMesh`]: linear tetrahedra with their neighbours; [`TriMesh`]: the closed surface of a piece; [`RenderMesh`]: its render mesh;
+//! - [`RenderSurface`]: the authored surface, and [`RenderIndex`], which divides it among the pieces;
 //! - [`TriangleTree`]: the closest point of a surface; [`AlongSurface`]: distances along one; [`MassProperties`]: mass, centre and inertia;
-//! - [`merged_parts`], [`thinned`], [`bounds`] and [`box_of`]: convex parts made fewer and simpler for colliders;
-//! - [`Rows`], [`ByNode`], [`DisjointSets`]: lists, tables and sets of numbered things.
+//! - [`merged_parts`], [`thinned`], [`bounds`] and [`box_of`]: fewer and simpler convex parts for colliders;
+//! - [`Rows`], [`ByNode`], [`DisjointSets`]: lists, tables and sets of indices.
 //!
-//! It is a crate of its own because the core, the bake and the mesher share it. It knows neither physics nor files.
+//! The core, the bake and the mesher share this crate. It contains neither physics nor file formats.
 
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 

@@ -9,15 +9,15 @@ pub struct MassProperties {
     pub mass: f64,
     /// Volume, m³.
     pub volume: f64,
-    /// Centre of mass, m, in the frame the piece was given in.
+    /// Centre of mass, m, in the frame of the input.
     pub centre: DVec3,
     /// Inertia tensor about the centre of mass, axes of the same frame, kg·m².
     pub inertia: DMat3,
 }
 
 impl MassProperties {
-    /// Mass properties of signed tetrahedra of one density, kg/m³: the apexes (a, b, c, d) with positive or negative
-    /// volume. A closed surface is the sum of the tetrahedra of its triangles with any fourth point.
+    /// Computes the mass properties of signed tetrahedra (a, b, c, d) of one density, kg/m³, whose volumes may be negative. A closed
+    /// surface is the sum of the tetrahedra of its triangles with any fourth point.
     #[must_use]
     pub fn of_tetrahedra(density: f64, tetrahedra: impl Iterator<Item = [DVec3; 4]>) -> Self {
         let (mut volume, mut first) = (0.0, DVec3::ZERO);
@@ -45,8 +45,7 @@ impl MassProperties {
         }
     }
 
-    /// Mass properties of the solid that a closed surface encloses, of one density, kg/m³, given the corners of its triangles: the tetrahedra of
-    /// the triangles with the origin.
+    /// Computes the mass properties of the solid inside a closed surface, of one density, kg/m³, from the corners of its triangles.
     pub fn of_surface(density: f64, triangles: impl Iterator<Item = [DVec3; 3]>) -> Self {
         let (mut volume, mut first) = (0.0, DVec3::ZERO);
         // xx, yy, zz and yz, zx, xy of the second moments.
@@ -79,16 +78,16 @@ impl MassProperties {
         }
     }
 
-    /// n_aᵀ K n_b, 1/kg: the change of speed along one (point, unit direction) by a unit impulse along another (both in the
-    /// frame of the piece), rotation included.
+    /// Returns n_aᵀ K n_b, 1/kg: the change of velocity at one point along a unit direction due to a unit impulse at another, including
+    /// rotation. Both (point, direction) pairs are in the frame of the piece.
     #[must_use]
     pub fn inverse_mass_between(&self, a: (DVec3, DVec3), b: (DVec3, DVec3)) -> f64 {
         let arm = |(point, n): (DVec3, DVec3)| (point - self.centre).cross(n);
         a.1.dot(b.1) / self.mass + arm(a).dot(self.inertia.inverse() * arm(b))
     }
 
-    /// nᵀ K n, 1/kg: the inverse effective mass felt by an impulse along unit `n` at `point`
-    /// (both in the frame of the piece), rotation included.
+    /// Returns nᵀ K n, 1/kg: the inverse effective mass for an impulse along the unit vector `n` at `point`, including rotation. Both
+    /// are in the frame of the piece.
     #[must_use]
     pub fn inverse_effective_mass(&self, point: DVec3, n: DVec3) -> f64 {
         self.inverse_mass_between((point, n), (point, n))

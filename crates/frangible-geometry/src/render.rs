@@ -1,39 +1,39 @@
-//! Drawn meshes of the pieces: the author's surface outside, crack faces inside.
+//! Render meshes of the pieces: the authored surface outside, crack faces inside.
 
 use glam::Vec3;
 
-/// Mesh to draw of a piece of a body that has a surface drawn by its author: its part of that
-/// surface and its crack faces, m, fragment frame.
+/// Render mesh of a piece of a body with an authored surface: its part of that surface and its crack faces, m, in the fragment
+/// frame. It is not used for physics.
 ///
-/// A mesh for the eye, and no input to physics. If the author's surface is closed and faces outwards, so is each piece, once vertices at
-/// one place are one: each side has one that runs the other way. Thin triangles close the gap between the author's surface and the crack
-/// faces; they come last. If one lies on a drawn triangle, the two face each other, and an edge may have four triangles.
+/// If the authored surface is closed and faces outwards, so does the mesh of each piece after vertices at the same position are merged:
+/// each directed edge has an opposite one. Thin triangles, which come last, close the gap between the authored surface and the crack
+/// faces. If such a triangle coincides with another triangle, the two face each other, and an edge may have four triangles.
 ///
-/// A hole that the author left stays one, unless a crack runs through it: then the piece's crack faces are sewn to the border of the hole.
-/// Pieces of a surface that faces inwards stay open along their cracks.
+/// Holes of the authored surface remain, unless a crack runs through one; then the piece's crack faces are sewn to its border.
+/// Pieces of a surface that faces inwards remain open along their cracks.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RenderMesh {
     /// Vertex positions, m, fragment frame.
     pub positions: Vec<Vec3>,
     /// Unit normals, one per vertex.
     pub normals: Vec<Vec3>,
-    /// Texture coordinates, one pair per vertex: the author's outside, where there are any; else, and on crack faces,
-    /// [`box_projection`] of the place in the parent's body frame, m.
+    /// Texture coordinates, one pair per vertex: the authored ones on outer faces, if there are any; otherwise, and on crack faces, the
+    /// [`box_projection`] of the position in the parent's body frame, m.
     pub uvs: Vec<[f32; 2]>,
     /// Vertices of each triangle, counter-clockwise seen from outside. The first [`RenderMesh::outer_triangles`]
-    /// are the author's surface, the rest crack faces and the triangles that sew the two together.
+    /// are the authored surface, the rest crack faces and the triangles that join the two.
     pub triangles: Vec<[u32; 3]>,
-    /// Number of triangles, from the first, on the author's surface.
+    /// Number of triangles on the authored surface, which come first.
     pub outer_triangles: usize,
-    /// Index into the surface's materials of each outer triangle; empty
-    /// where the author gave none. Crack faces take a material of the user's own.
+    /// Index of each outer triangle into the surface's materials; empty if the surface has none. The material of crack faces is up to
+    /// the application.
     pub material_of_triangle: Vec<u32>,
 }
 
-/// Texture coordinates of a point by box projection, m: its two coordinates across the axis that the face's normal is
-/// closest to. Give all corners of a triangle the same normal.
+/// Returns texture coordinates of a point by box projection, m: its two coordinates perpendicular to the axis closest to the face
+/// normal. Use the same normal for all corners of a triangle.
 ///
-/// u runs right and v down as seen from outside, as in glTF, so that no face is mirrored.
+/// u points right and v down as seen from outside, as in glTF, so that no face is mirrored.
 #[must_use]
 pub fn box_projection(point: Vec3, normal: Vec3) -> [f32; 2] {
     let axis = normal.abs().max_position();

@@ -1,6 +1,6 @@
-//! Lists of numbers of different lengths, one behind another.
+//! Lists of indices with different lengths, stored consecutively.
 
-/// Rows of numbers, compressed: where each row starts, and all rows one behind another.
+/// Rows of indices in compressed storage: the start of each row, and all rows consecutively.
 #[derive(Clone, Debug)]
 pub struct Rows {
     starts: Vec<u32>,
@@ -18,7 +18,8 @@ impl Default for Rows {
 }
 
 impl Rows {
-    /// Row r lists, ascending, the keys' places where r stands: for the nodes of tetrahedra, the tetrahedra of a node.
+    /// Builds the inverse of `keys`: row r lists, in ascending order, the indices of the keys that contain r. For the nodes of
+    /// tetrahedra these are the tetrahedra of each node.
     pub fn inverse<const N: usize>(count: usize, keys: &[[u32; N]]) -> Self {
         let mut starts = vec![0_u32; count + 1];
         for &r in keys.iter().flatten() {
@@ -38,26 +39,26 @@ impl Rows {
         Self { starts, items }
     }
 
-    /// Adds a row, ascending.
+    /// Adds a row, sorted in ascending order.
     pub fn push(&mut self, row: &mut [u32]) {
         row.sort_unstable();
         self.items.extend_from_slice(row);
         self.starts.push(self.items.len() as u32);
     }
 
-    /// Gives back unused memory.
+    /// Releases unused memory.
     pub fn shrunk(mut self) -> Self {
         self.starts.shrink_to_fit();
         self.items.shrink_to_fit();
         self
     }
 
-    /// Number of rows.
+    /// Returns the number of rows.
     pub fn count(&self) -> usize {
         self.starts.len() - 1
     }
 
-    /// A row.
+    /// Returns a row.
     pub fn of(&self, row: u32) -> &[u32] {
         let r = row as usize;
         &self.items[self.starts[r] as usize..self.starts[r + 1] as usize]

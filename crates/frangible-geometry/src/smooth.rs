@@ -1,11 +1,11 @@
-//! Normals of surfaces without any.
+//! Smooth normals of surfaces.
 
 use glam::Vec3;
 
 /// Corners that turn by more than this from their vertex's mean are shaded flat (cosine).
 const SMOOTH_COSINE: f32 = 0.6;
 
-/// Corner normals: area-weighted vertex means, flat at sharp turns.
+/// Returns corner normals: area-weighted averages at the vertices, except across sharp edges.
 pub fn smooth_normals(vertices: &[Vec3], triangles: &[[u32; 3]]) -> Vec<[Vec3; 3]> {
     let flat = |t: &[u32; 3]| {
         let [a, b, c] = t.map(|v| vertices[v as usize]);

@@ -4,8 +4,8 @@ use glam::Vec3;
 
 /// A closed, outward-oriented triangle surface of one piece, and the open cracks inside it.
 ///
-/// Vertices are shared wherever the surface is connected, so that it is closed edge by edge;
-/// normals belong to triangle corners, since they jump at sharp edges.
+/// Vertices are shared wherever the surface is connected, so that every edge has an opposite one;
+/// normals belong to triangle corners, since they are discontinuous at sharp edges.
 #[derive(Clone, Debug, Default)]
 pub struct TriMesh {
     /// Vertex positions, m.
@@ -15,14 +15,14 @@ pub struct TriMesh {
     pub triangles: Vec<[u32; 3]>,
     /// Unit normals at the corners of each triangle.
     pub normals: Vec<[Vec3; 3]>,
-    /// Number of triangles, from the first, on the body's original surface.
+    /// Number of triangles on the body's original surface, which come first.
     pub outer_triangles: usize,
-    /// Cracks that entered the piece without parting it: loose two-sided triangles, m.
+    /// Partial cracks inside the piece: separate two-sided triangles, m.
     pub cracks: Vec<[Vec3; 3]>,
 }
 
 impl TriMesh {
-    /// True when every directed edge is matched by exactly one opposite edge.
+    /// Returns true if every directed edge has exactly one opposite edge.
     #[must_use]
     pub fn is_closed(&self) -> bool {
         let mut edges: Vec<(u32, u32)> = self
@@ -38,7 +38,7 @@ impl TriMesh {
                 .all(|&(a, b)| edges.binary_search(&(b, a)).is_ok())
     }
 
-    /// Volume enclosed by the surface as stored, m³.
+    /// Returns the volume enclosed by the surface, m³.
     #[must_use]
     pub fn volume(&self) -> f64 {
         let p = |i: u32| self.positions[i as usize].as_dvec3();

@@ -7,7 +7,7 @@ use glam::{DVec3, Vec3};
 /// Marks a face on the outside in [`TetMesh::neighbours`].
 pub const NO_NEIGHBOUR: u32 = u32::MAX;
 
-/// A tetrahedral mesh, every tetrahedron of positive volume.
+/// A tetrahedral mesh; every tetrahedron has positive volume.
 #[derive(Clone, Debug, Default)]
 pub struct TetMesh {
     /// Node positions, m.
@@ -56,28 +56,28 @@ impl TetMesh {
         }
     }
 
-    /// Corner positions of tetrahedron `e`, m.
+    /// Returns the corner positions of tetrahedron `e`, m.
     #[must_use]
     #[inline]
     pub fn corners(&self, e: usize) -> [Vec3; 4] {
         self.tets[e].map(|v| self.positions[v as usize])
     }
 
-    /// Centroid of tetrahedron `e`, m.
+    /// Returns the centroid of tetrahedron `e`, m.
     #[must_use]
     #[inline]
     pub fn centroid(&self, e: usize) -> Vec3 {
         self.corners(e).iter().sum::<Vec3>() * 0.25
     }
 
-    /// Volume of tetrahedron `e`, m³.
+    /// Returns the volume of tetrahedron `e`, m³.
     #[must_use]
     pub fn volume(&self, e: usize) -> f64 {
         let [a, b, c, d]: [DVec3; 4] = self.corners(e).map(Vec3::as_dvec3);
         (b - a).cross(c - a).dot(d - a) / 6.0
     }
 
-    /// The tetrahedron that holds a point, found by walking towards it from tetrahedron `start`; `None` where the way leaves the mesh.
+    /// Returns the tetrahedron that contains a point, by walking towards it from tetrahedron `start`; `None` if the walk leaves the mesh.
     #[must_use]
     pub fn locate(&self, start: u32, point: Vec3) -> Option<u32> {
         let mut e = start;
@@ -101,13 +101,13 @@ impl TetMesh {
         None
     }
 
-    /// Sum of all volumes, m³.
+    /// Returns the total volume, m³.
     #[must_use]
     pub fn total_volume(&self) -> f64 {
         (0..self.tets.len()).map(|e| self.volume(e)).sum()
     }
 
-    /// Faces without a neighbour: node indices (counter-clockwise from outside) and the tetrahedron behind.
+    /// Returns the faces without a neighbour: node indices (counter-clockwise seen from outside) and the tetrahedron of each.
     #[must_use]
     pub fn boundary(&self) -> Vec<([u32; 3], u32)> {
         let mut faces = Vec::new();
@@ -121,7 +121,7 @@ impl TetMesh {
         faces
     }
 
-    /// Mean edge length, m.
+    /// Returns the mean edge length, m.
     #[must_use]
     pub fn mean_edge(&self) -> f32 {
         let mut sum = 0.0_f64;
@@ -135,7 +135,7 @@ impl TetMesh {
         (sum / (6 * self.tets.len().max(1)) as f64) as f32
     }
 
-    /// Longest edge, m.
+    /// Returns the length of the longest edge, m.
     #[must_use]
     pub fn longest_edge(&self) -> f32 {
         let tets = (0..self.tets.len()).map(|e| self.corners(e));

@@ -1,4 +1,4 @@
-//! Closest point of a surface, by a tree of boxes.
+//! Closest points on a surface, by a bounding volume hierarchy.
 
 use std::ops::Range;
 
@@ -22,7 +22,7 @@ struct Node {
     is_leaf: bool,
 }
 
-/// Boxes over the triangles of a surface.
+/// Bounding volume hierarchy of the triangles of a surface.
 #[derive(Clone, Debug, Default)]
 pub struct TriangleTree {
     nodes: Vec<Node>,
@@ -31,19 +31,19 @@ pub struct TriangleTree {
     corners: Vec<[Vec3; 3]>,
 }
 
-/// The point of a surface closest to a given one.
+/// A point on a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfacePoint {
-    /// Its triangle.
+    /// Triangle that contains the point.
     pub triangle: u32,
-    /// Weights of the triangle's corners.
+    /// Barycentric coordinates in the triangle.
     pub weights: [f32; 3],
     /// Position, m.
     pub position: Vec3,
 }
 
 impl TriangleTree {
-    /// The tree of these triangles; every index must name a position.
+    /// Builds the tree of these triangles; every index must refer to a position.
     #[must_use]
     pub fn new(positions: &[Vec3], triangles: &[[u32; 3]]) -> Self {
         let corners: Vec<[Vec3; 3]> = triangles
@@ -108,7 +108,7 @@ impl TriangleTree {
         }
     }
 
-    /// Calls for every triangle whose own box meets this one, in the tree's order.
+    /// Calls `found` for every triangle whose bounding box intersects this box, in the order of the tree.
     pub fn in_box(&self, low: Vec3, high: Vec3, mut found: impl FnMut(u32)) {
         let mut stack = [0_u32; STACK];
         let mut waiting = usize::from(!self.nodes.is_empty());
@@ -130,7 +130,7 @@ impl TriangleTree {
         }
     }
 
-    /// The closest point of the surface; of equally close triangles the one with the lowest number.
+    /// Returns the closest point on the surface; of equally close triangles, the one with the lowest number.
     pub fn closest(&self, point: Vec3) -> SurfacePoint {
         let mut best = SurfacePoint {
             triangle: 0,

@@ -1,7 +1,7 @@
-//! The air that carries the sound.
+//! Properties of air.
 
-/// Air at 20 °C and 1013 hPa: density, kg/m³.
+/// Density of air at 20 °C and 1013 hPa, kg/m³.
 pub const AIR_DENSITY: f64 = 1.204;
 
-/// Speed of sound in it, m/s.
+/// Speed of sound in air at 20 °C, m/s.
 pub const SPEED_OF_SOUND: f64 = 343.2;

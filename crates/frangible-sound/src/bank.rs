@@ -3,8 +3,8 @@
 //! Each is a rotation that shrinks, exact for any step, and needs four products per sample, with two more for its sound. Eight
 //! go side by side in the widest vectors that the processor has; operations and their order are the same on all.
 
-/// Samples that are computed at once. An event that a [`Synth`](crate::Synth) is told one block ahead begins on its sample; one that is told
-/// later may begin later by up to a block.
+/// Number of samples computed at once. An event passed to a [`Synth`](crate::Synth) at least one block ahead starts at its exact
+/// sample; a later one may be delayed by up to a block.
 pub const BLOCK: usize = 128;
 
 /// Resonators side by side.

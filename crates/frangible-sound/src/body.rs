@@ -1,4 +1,4 @@
-//! A body that can sound: modes, a mass, and the sphere that carries them to the air.
+//! A body that radiates sound: its modes, its mass and its equivalent sphere.
 
 use glam::Vec3;
 
@@ -7,7 +7,7 @@ use crate::error::{SoundError, finite, within};
 use crate::sphere::EquivalentSphere;
 use crate::waves::HARMONICS;
 
-/// A body that can sound, as plain data. Its frame has the origin at the centre of mass.
+/// A body that radiates sound, as plain data. The origin of its frame is the centre of mass.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Body {
     /// Name, for messages.
@@ -20,7 +20,7 @@ pub struct Body {
     pub modes: Vec<Mode>,
 }
 
-/// One mode of vibration, mass-normalised.
+/// A mass-normalized mode of vibration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mode {
     /// Natural frequency, Hz.
@@ -35,7 +35,8 @@ pub struct Mode {
 }
 
 impl Mode {
-    /// A mode with its losses: natural frequency, Hz; its motion on a sphere; the damping and the hold of its body.
+    /// Creates a mode with its losses from its natural frequency, Hz, its motion on the equivalent sphere, and the damping and support of
+    /// its body.
     #[must_use]
     pub fn new(
         frequency: f64,
@@ -54,7 +55,7 @@ impl Mode {
         }
     }
 
-    /// Time in which its level falls by 60 dB, s; infinite without loss.
+    /// Returns the time in which the level falls by 60 dB, s; infinite without loss.
     #[must_use]
     pub fn reverberation(&self) -> f64 {
         6.0 * std::f64::consts::LN_10 / self.loss
@@ -62,10 +63,10 @@ impl Mode {
 }
 
 impl Body {
-    /// A ball that moves as a whole and rings above the range of hearing: radius, m, and mass, kg.
+    /// Creates a rigid ball, whose modes are above the range of hearing, from its radius, m, and mass, kg.
     ///
     /// # Errors
-    /// A radius or a mass that is not above zero.
+    /// The radius or mass is not positive.
     pub fn ball(name: impl Into<String>, radius: f64, mass: f64) -> Result<Self, SoundError> {
         let body = Self {
             name: name.into(),
@@ -77,8 +78,8 @@ impl Body {
         Ok(body)
     }
 
-    /// Velocity change at a point, m, along a unit direction by an impulse of 1 N·s along it, m/s, for a rigid body with the second moments of its
-    /// surface.
+    /// Returns the velocity change at a point, m, along a unit direction, m/s, due to an impulse of 1 N·s along it, for a rigid body with
+    /// the second moments of its surface.
     #[must_use]
     pub fn yields(&self, point: Vec3, direction: Vec3) -> f64 {
         if self.mass.is_infinite() {

@@ -19,7 +19,7 @@ pub struct SynthConfig {
 }
 
 impl SynthConfig {
-    /// Settings for 48 kHz without a floor.
+    /// Returns settings for 48 kHz without a floor.
     #[must_use]
     pub fn new(listener: Listener) -> Self {
         Self {

@@ -115,14 +115,14 @@ const KNOWN: [Known; 12] = [
 ];
 
 impl AudibleDamping {
-    /// Published damping of a material by its name, with its source.
+    /// Returns the published damping of a material by its name, with its source.
     #[must_use]
     pub fn published(name: &str) -> Option<(Self, &'static str)> {
         let known = KNOWN.iter().find(|known| known.names.contains(&name))?;
         Some((known.damping, known.source))
     }
 
-    /// Published damping of a material, or the damping of its fracture model if its name is unknown.
+    /// Returns the published damping of a material, or the damping of its fracture model if its name is unknown.
     #[must_use]
     pub fn of(material: &Material) -> Self {
         Self::published(&material.name).map_or(
@@ -131,7 +131,7 @@ impl AudibleDamping {
         )
     }
 
-    /// The loss d at an angular frequency, rad/s, in 1/s.
+    /// Returns the loss rate d at an angular frequency, rad/s, in 1/s.
     #[must_use]
     pub fn loss(&self, frequency: f64) -> f64 {
         self.mass + self.stiffness * frequency * frequency + self.loss_factor * frequency
@@ -144,8 +144,8 @@ pub enum Hold {
     /// Free: the body flies or touches other bodies only briefly.
     #[default]
     Free,
-    /// Standing or lying on something: a loss of 4/s, by which a glass on a table rings half as long at its lowest tone. An estimate;
-    /// stone takes far less, by the mobility of its half-space, and a cloth far more.
+    /// Standing or lying on something: a loss of 4/s, which halves the ringing of a glass on a table at its lowest tone. An estimate; a stone
+    /// floor absorbs far less, according to the mobility of a half-space, and a cloth far more.
     Standing,
     /// Edge set in a frame with putty or mortar: a loss factor of 0.02, in the middle of 0.01 to 0.03 that the standard EN 12354-1
     /// gives for building elements with their joints.
@@ -155,7 +155,7 @@ pub enum Hold {
 }
 
 impl Hold {
-    /// Its part of the loss d at an angular frequency, rad/s, in 1/s.
+    /// Returns the contribution of the support to the loss rate d at an angular frequency, rad/s, in 1/s.
     #[must_use]
     pub fn loss(self, frequency: f64) -> f64 {
         match self {

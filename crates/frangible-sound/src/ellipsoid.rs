@@ -1,9 +1,9 @@
-//! The air that an ellipsoid pushes along, by which a shaken body sounds at low frequencies.
+//! Added mass of an ellipsoid, which determines the sound of a shaken body at low frequencies.
 
 use std::f64::consts::PI;
 
-/// Volume of an ellipsoid of these semi-axes, m, and of the air that moves with it, m³, when it moves along each axis. Times the density of
-/// the air and the acceleration this is its dipole moment. 2πa³ for a sphere, 8a³/3 for a thin disc across itself.
+/// Returns the volume of an ellipsoid with these semi-axes, m, plus that of the air that moves with it along each axis, m³. Multiplied
+/// by the density of air and the acceleration, it is the dipole moment. 2πa³ for a sphere, 8a³/3 for a thin disc across itself.
 /// Lamb, Hydrodynamics, §114: V (1 + α/(2−α)), α_i = abc ∫₀^∞ dλ / ((a_i²+λ) √((a²+λ)(b²+λ)(c²+λ))).
 #[must_use]
 pub fn moved_air(semi_axes: [f64; 3]) -> [f64; 3] {

@@ -34,7 +34,7 @@ pub enum SoundError {
         /// Number of entries expected, in words.
         expected: String,
     },
-    /// A number of a body that was never added, or was removed.
+    /// The index of a body that was never added or has been removed.
     #[error("there is no body {index}; {count} bodies were added, numbered from 0 in that order")]
     NoBody {
         /// The number.

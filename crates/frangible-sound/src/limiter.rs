@@ -35,10 +35,10 @@ impl Default for Limiter {
 }
 
 impl Limiter {
-    /// A limiter with this full-scale pressure, Pa; [`Limiter::default`] uses 20.
+    /// Creates a limiter with this full-scale pressure, Pa; [`Limiter::default`] uses 20.
     ///
     /// # Errors
-    /// A pressure that is not finite or not above zero.
+    /// The pressure is not finite or not positive.
     pub fn new(full_scale: f64) -> Result<Self, SoundError> {
         Ok(Self {
             full_scale: checked_full_scale(full_scale)?,

@@ -27,7 +27,7 @@ const FARTHEST: f64 = 300.0;
 const NEAREST: f64 = 0.05;
 
 impl Listener {
-    /// A stereo listener at a position, m, facing another, m; y is up.
+    /// Creates a stereo listener at a position, m, facing another, m, with y up.
     #[must_use]
     pub fn at(place: DVec3, towards: DVec3) -> Self {
         let right = (towards - place).cross(DVec3::Y);
@@ -41,7 +41,7 @@ impl Listener {
     /// Checks every number.
     ///
     /// # Errors
-    /// A place or direction that is not finite, or a number of channels other than 1 and 2.
+    /// The position or direction is not finite, or the number of channels is not 1 or 2.
     pub fn validate(&self) -> Result<(), SoundError> {
         for part in self.place.to_array() {
             finite(|| "the listener's place".into(), part)?;
@@ -77,19 +77,19 @@ impl Listener {
 /// A hard level floor, which reflects sound and sounds itself when struck.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SoundFloor {
-    /// Its y coordinate, m.
+    /// Height of the floor (y coordinate), m.
     pub height: f64,
-    /// Share of the pressure that it reflects, 0–1: 0.97 for stone and concrete, whose absorption is 0.01 to 0.05 (any table of absorption
+    /// Reflected fraction of the pressure, 0–1: 0.97 for stone and concrete, whose absorption is 0.01 to 0.05 (any table of absorption
     /// coefficients), 0.8 for carpet.
     pub reflection: f64,
-    /// Shear modulus of its material, Pa.
+    /// Shear modulus of the floor's material, Pa.
     pub shear_modulus: f64,
-    /// Poisson's ratio of it.
+    /// Poisson's ratio of the floor's material.
     pub poisson_ratio: f64,
 }
 
 impl SoundFloor {
-    /// A floor of stone at this height, m.
+    /// Creates a stone floor at this height, m.
     #[must_use]
     pub fn stone(height: f64) -> Self {
         Self {
@@ -100,7 +100,7 @@ impl SoundFloor {
         }
     }
 
-    /// A floor of this material at this height, m, with the reflection of stone.
+    /// Creates a floor of this material at this height, m, with the reflection of stone.
     #[must_use]
     pub fn of(material: &Material, height: f64) -> Self {
         Self {
@@ -113,7 +113,7 @@ impl SoundFloor {
     /// Checks every number.
     ///
     /// # Errors
-    /// A number that is not finite or out of range.
+    /// A value is not finite or out of range.
     pub fn validate(&self) -> Result<(), SoundError> {
         finite(|| "the height of the floor".into(), self.height)?;
         let (share, modulus) = (self.reflection, self.shear_modulus);

@@ -1,6 +1,6 @@
-//! The sound of a baked body: its modes, and the force on each of them by a push at a point.
+//! The sound of a baked body: its modes, and the modal forces of a force at a point.
 //!
-//! Everything comes from the asset when it is made ready to sound, so that files grow by nothing and bakes take no longer.
+//! All data are derived from the asset when the body is prepared for sound, so that files are no larger and bakes take no longer.
 
 use frangible::Asset;
 use frangible::internals::asset::each_row;
@@ -12,10 +12,10 @@ use crate::error::SoundError;
 use crate::sphere::{EquivalentSphere, SurfaceElement};
 use crate::waves::HARMONICS;
 
-/// Modes above this are not kept, Hz: hardly anybody hears them.
+/// Highest frequency of modes that are kept, Hz; higher ones are hardly audible.
 pub const HIGHEST: f64 = 16_000.0;
 
-/// A breakable body, or a piece that has modes of its own, with its surface to be struck.
+/// Sound data of a breakable body, or of a piece with its own modes, including its surface.
 #[derive(Clone, Debug)]
 pub struct AssetSound {
     body: frangible::Body,
@@ -24,10 +24,10 @@ pub struct AssetSound {
 }
 
 impl AssetSound {
-    /// Makes a body ready to sound, as its hold lets it: its modes up to [`HIGHEST`], their motion spread over a sphere.
+    /// Prepares a body for sound with its support: its modes up to [`HIGHEST`], and their motion on the equivalent sphere.
     ///
     /// # Errors
-    /// A surface without area, or a number of the asset at fault.
+    /// The surface has no area, or a value of the asset is invalid.
     pub fn new(
         body: &frangible::Body,
         damping: &AudibleDamping,
@@ -63,7 +63,7 @@ impl AssetSound {
         Ok((own, sound))
     }
 
-    /// Force on each mode, 1/√kg, of one newton along a direction that acts on the surface nearest to a point, m, body
+    /// Returns the modal forces, 1/√kg, of one newton along a direction, applied to the surface point nearest to a point, m, in the body
     /// frame.
     #[must_use]
     pub fn push(&self, point: Vec3, direction: Vec3) -> Vec<f32> {

@@ -33,7 +33,7 @@ struct Waiting {
 }
 
 impl Outlet {
-    /// An empty queue with this sampling rate, samples per second.
+    /// Creates an empty queue with this sampling rate, samples per second.
     #[must_use]
     pub fn new(rate: f64) -> Self {
         Self {
@@ -42,7 +42,7 @@ impl Outlet {
         }
     }
 
-    /// Samples per second.
+    /// Returns the sampling rate, samples per second.
     #[must_use]
     pub fn rate(&self) -> f64 {
         self.rate

@@ -1,9 +1,9 @@
-//! A piece without modes of its own: the free plate of its size, in closed form.
+//! Sound of pieces without their own modes: free plates of the same size, in closed form.
 //!
-//! A shard has the weight, the surface and the stretch of a rectangular plate, whose tones Warburton gave in closed form (The vibration of
-//! rectangular plates, Proc. Inst. Mech. Eng. 168, 1954). They are 5–14 % high on a square plate, and a shard is no rectangle: this
-//! is scaling, good for how high and how long a piece of its size rings, and not for a melody. Thick pieces ring lower than a thin plate by
-//! the shear and the rotation of their sections (Mindlin, to first order).
+//! A shard is approximated by a rectangular plate of the same mass, surface area and aspect ratio, whose frequencies Warburton gave in
+//! closed form (The vibration of rectangular plates, Proc. Inst. Mech. Eng. 168, 1954). They are 5–14 % too high for a square plate, and a
+//! shard is not a rectangle, so only the pitch range and the duration of the sound are realistic, not the individual tones. For thick
+//! pieces, frequencies are reduced by shear and rotary inertia (Mindlin, to first order).
 
 use std::f64::consts::PI;
 
@@ -25,11 +25,11 @@ pub struct PlateMaterial {
     pub poisson_ratio: f64,
     /// Density, kg/m³.
     pub density: f64,
-    /// Damping of its tones.
+    /// Damping of audible vibration.
     pub damping: AudibleDamping,
 }
 
-/// A rectangular plate that rings freely.
+/// A free rectangular plate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plate {
     /// Length, width and thickness, m.
@@ -111,10 +111,10 @@ fn tone([m, n]: [usize; 2], [a, b, h]: [f64; 3], material: &PlateMaterial) -> f6
 }
 
 impl Plate {
-    /// The plate of a shard, from the triangles of its closed surface, m, about its centre of mass, and its mass, kg.
+    /// Creates the plate of a shard from the triangles of its closed surface, m, relative to its centre of mass, and its mass, kg.
     ///
     /// # Errors
-    /// A surface without area or volume, or numbers of the material at fault.
+    /// The surface has no area or volume, or a value of the material is invalid.
     pub fn of_surface(
         name: impl Into<String>,
         surface: &[SurfaceElement],
@@ -165,10 +165,10 @@ impl Plate {
         Self::new(name, sides, axes, material)
     }
 
-    /// A plate of these sides, m, with this rotation.
+    /// Creates a plate with these sides, m, and this rotation.
     ///
     /// # Errors
-    /// A side or a number of the material at fault.
+    /// A side or a value of the material is invalid.
     pub fn new(
         name: impl Into<String>,
         sides: [f64; 3],
@@ -245,7 +245,7 @@ impl Plate {
         Ok((plate, body))
     }
 
-    /// Force on each mode, 1/√kg, of one newton along a direction at a point, m, body frame.
+    /// Returns the modal forces, 1/√kg, of one newton along a direction at a point, m, in the body frame.
     #[must_use]
     pub fn push(&self, point: Vec3, direction: Vec3) -> Vec<f32> {
         let across = (self.axes * DVec3::Z).dot(direction.as_dvec3());

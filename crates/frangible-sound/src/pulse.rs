@@ -1,14 +1,14 @@
-//! A force over time, and the response of an oscillator to it: exact between its values.
+//! A force over time, and the exact response of an oscillator to it.
 
 use crate::complex::Complex;
 use crate::error::{SoundError, finite, within};
 
-/// A force over time, linear between its values.
+/// A force over time, with linear interpolation between values.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pulse {
     /// Time between two values, s.
     pub time_step: f64,
-    /// The force at the end of each time step, N; zero before the first step, and again after the last value, where it may drop.
+    /// Force at the end of each time step, N. It is zero at the start of the first step and drops to zero after the last value.
     pub force: Vec<f32>,
 }
 
@@ -19,7 +19,7 @@ const HALF_SINE_STEPS: usize = 24;
 const LONGEST: f64 = 10.0;
 
 impl Pulse {
-    /// A half-sine of an impulse, N·s, and a duration, s: what an elastic collision gives, near enough.
+    /// Creates a half-sine pulse with this impulse, N·s, and duration, s, a good approximation of an elastic collision.
     #[must_use]
     pub fn half_sine(impulse: f64, duration: f64) -> Self {
         let time_step = duration / HALF_SINE_STEPS as f64;
@@ -34,13 +34,13 @@ impl Pulse {
         Self { time_step, force }
     }
 
-    /// Duration, s.
+    /// Returns the duration, s.
     #[must_use]
     pub fn duration(&self) -> f64 {
         self.time_step * self.force.len() as f64
     }
 
-    /// Its impulse, N·s.
+    /// Returns the impulse, N·s.
     #[must_use]
     pub fn impulse(&self) -> f64 {
         let last = f64::from(self.force.last().copied().unwrap_or(0.0));
@@ -51,7 +51,7 @@ impl Pulse {
     /// Checks every number.
     ///
     /// # Errors
-    /// A force that is not finite, a time step that is not above zero, or more than 10 s.
+    /// A force is not finite, the time step is not positive, or the duration exceeds 10 s.
     pub fn validate(&self) -> Result<(), SoundError> {
         let step = self.time_step;
         within(
@@ -90,7 +90,7 @@ impl Pulse {
         (self.value(k + 1) - self.value(k)) / self.time_step
     }
 
-    /// The force, N, and its growth, N/s, at a time after its beginning, s.
+    /// Returns the force, N, and its rate of change, N/s, at a time after the start, s.
     #[must_use]
     pub fn at(&self, time: f64) -> (f64, f64) {
         if time < 0.0 {

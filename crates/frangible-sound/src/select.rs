@@ -1,4 +1,4 @@
-//! Choice of the resonators that are worth their time: the loudest within a budget, and none that others mask.
+//! Selection of resonators: the loudest within a budget, without masked ones.
 
 use crate::voice::Voice;
 

@@ -1,4 +1,4 @@
-//! The equivalent sphere, by which the motion of a surface becomes sound in closed form.
+//! The equivalent sphere, which gives the sound of a vibrating surface in closed form.
 //!
 //! A body's surface is spread over a sphere of the same outer area. The place of each point on it follows from the ellipsoid of the surface's
 //! second moments, shrunk to a ball, so that both faces of a plate fill a half each. The flow through each place is kept. On the
@@ -24,18 +24,18 @@ use crate::waves::{HARMONICS, degree, efficiencies, hankel, hankel_slopes, harmo
 pub struct SurfaceElement {
     /// Position, m, from the body's centre of mass.
     pub place: DVec3,
-    /// Its outward normal times its area, m².
+    /// Area vector (outward normal times area), m².
     pub area: DVec3,
 }
 
-/// The sphere that sounds instead of a body.
+/// The equivalent sphere of a body for sound radiation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EquivalentSphere {
-    /// Its radius, m: that of a sphere with the area of the surface that looks away from the centre.
+    /// Radius, m, of a sphere with the area of the part of the surface that faces away from the centre.
     pub radius: f64,
     /// Rotation from the frame of the harmonics, which is along the principal axes of the surface, to the body's.
     pub axes: DQuat,
-    /// Volume of the body and of the air that goes with it along each axis, m³.
+    /// Volume of the body plus that of the air moving with it, along each axis, m³.
     pub moved_air: [f64; 3],
     /// Semi-axes of the ellipsoid of the surface's second moments, m.
     semi_axes: [f64; 3],
@@ -47,10 +47,10 @@ pub struct EquivalentSphere {
 const THINNEST: f64 = 1e-3;
 
 impl EquivalentSphere {
-    /// The sphere of a ball.
+    /// Creates the equivalent sphere of a ball.
     ///
     /// # Errors
-    /// A radius that is not above zero.
+    /// The radius is not positive.
     pub fn ball(radius: f64) -> Result<Self, SoundError> {
         within(
             || "the radius of a ball".into(),
@@ -67,10 +67,10 @@ impl EquivalentSphere {
         })
     }
 
-    /// The sphere of a closed surface.
+    /// Creates the equivalent sphere of a closed surface.
     ///
     /// # Errors
-    /// A surface without area that looks away from its centre.
+    /// No part of the surface faces away from its centre.
     pub fn of(surface: &[SurfaceElement]) -> Result<Self, SoundError> {
         let outward = || surface.iter().filter(|e| looks_out(e));
         let area: f64 = outward().map(|e| e.area.length()).sum();
@@ -106,7 +106,7 @@ impl EquivalentSphere {
         Ok(sphere)
     }
 
-    /// Semi-axes, m, along the frame of the harmonics, of the ellipsoid that has the surface's second moments.
+    /// Returns the semi-axes, m, of the ellipsoid with the surface's second moments, along the axes of the harmonics.
     #[must_use]
     pub fn semi_axes(&self) -> [f64; 3] {
         self.semi_axes
@@ -137,8 +137,8 @@ impl EquivalentSphere {
         place / DVec3::from_array(self.semi_axes)
     }
 
-    /// Weights by which the displacement of an element, m, adds to the normal displacement of the sphere, m: one vector for each harmonic, to be
-    /// multiplied with the displacement.
+    /// Returns the weights that convert the displacement of an element, m, to the normal displacement of the sphere, m: one vector for each
+    /// harmonic, whose scalar product with the displacement is its contribution.
     #[must_use]
     pub fn weights(&self, element: &SurfaceElement) -> [DVec3; HARMONICS] {
         let y = harmonics(self.direction(element.place));
@@ -157,7 +157,7 @@ impl EquivalentSphere {
         weights
     }
 
-    /// Loss of the energy of a mode into the air, 1/s, from its motion on the sphere per unit of modal velocity, 1/√kg, and its angular
+    /// Returns the radiation loss rate of a mode, 1/s, from its motion on the sphere per unit of modal velocity, 1/√kg, and its angular
     /// frequency, rad/s. A mode of unit modal mass and velocity v̂ holds v̂²/2 and sends ½ ρ c a² Σ |c_lm v̂|² σ_l(ka).
     #[must_use]
     pub fn radiation_loss(&self, motion: &[f32], frequency: f64) -> f64 {

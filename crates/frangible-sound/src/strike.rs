@@ -1,4 +1,4 @@
-//! Causes of a body's sound: forces on it, and cracks through it.
+//! Excitation of a body: forces and cracks.
 
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
@@ -11,15 +11,15 @@ use crate::error::{SoundError, finite};
 use crate::of_asset::HIGHEST;
 use crate::pulse::{Pulse, half_sine_share};
 
-/// A force on a body, or several that act together.
+/// A force on a body, or several simultaneous forces.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Strike {
     /// The force over time.
     pub pulse: Arc<Pulse>,
-    /// Force on each mode of one newton of it, 1/√kg: φ_i(x)·n, as [`AssetSound::push`](crate::AssetSound::push) finds it. Empty: nothing; else
-    /// one per mode.
+    /// Modal forces per newton, 1/√kg: φ_i(x)·n, one per mode, as returned by [`AssetSound::push`](crate::AssetSound::push). If empty, no
+    /// mode is excited.
     pub push: Vec<f32>,
-    /// The direction of the force in the body's frame, by which the body is moved as a whole; zero for forces in balance.
+    /// Direction of the resultant force in the body frame, which moves the body rigidly; zero for balanced forces.
     pub direction: Vec3,
 }
 
@@ -51,7 +51,7 @@ impl Strike {
         Ok(())
     }
 
-    /// The vibration energy left in a body, J, as of the strike's beginning and without losses during it.
+    /// Returns the vibration energy that the strike leaves in a body, J, neglecting losses during the strike.
     #[must_use]
     pub fn energy(&self, body: &Body) -> f64 {
         let modes = body.modes.iter().zip(&self.push);

@@ -1,4 +1,4 @@
-//! The synthesiser: bodies and events in, pressures out.
+//! The synthesiser, which converts bodies and events to sound pressure.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -48,10 +48,10 @@ pub struct Synth {
 }
 
 impl Synth {
-    /// A synthesiser at time zero, without bodies.
+    /// Creates a synthesiser at time zero, without bodies.
     ///
     /// # Errors
-    /// A number of the configuration that is not finite or out of range.
+    /// A value of the configuration is not finite or out of range.
     pub fn new(config: SynthConfig) -> Result<Self, SoundError> {
         config.validate()?;
         let long = (longest_delay(config.rate) + 2 * BLOCK).next_power_of_two();
@@ -77,7 +77,7 @@ impl Synth {
         &self.config
     }
 
-    /// Time of the next rendered sample, s.
+    /// Returns the time of the next rendered sample, s.
     #[must_use]
     pub fn time(&self) -> f64 {
         let waiting = self.ready.len() / self.config.listener.channels;
@@ -90,7 +90,7 @@ impl Synth {
         self.report
     }
 
-    /// Number of active resonators.
+    /// Returns the number of active resonators.
     #[must_use]
     pub fn resonators(&self) -> usize {
         self.voices.iter().flatten().map(|v| v.slots.len()).sum()

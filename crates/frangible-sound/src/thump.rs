@@ -1,4 +1,4 @@
-//! A force on the floor, heard.
+//! Sound of a force on the floor.
 
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ use crate::pulse::Pulse;
 pub(crate) struct Thump {
     start: f64,
     pulse: Arc<Pulse>,
-    /// Pressure per growth of the force, Pa·s/N.
+    /// Pressure per rate of change of the force, Pa·s/N.
     size: f64,
     pub(crate) ways: Ways,
 }

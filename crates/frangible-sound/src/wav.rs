@@ -1,4 +1,4 @@
-//! Samples as a WAV file.
+//! Encoding of samples as a WAV file.
 
 use std::io::Cursor;
 
@@ -6,12 +6,14 @@ use hound::{SampleFormat, WavSpec, WavWriter};
 
 use crate::error::{SoundError, checked_full_scale, within};
 
-/// The bytes of a WAV file with 16 bits per sample: pressures, Pa, channel after channel in turn, samples per second, and the pressure of the
-/// file's largest number, Pa. With that of the loudest sample nothing is bent and nothing is lost; with one of their own, files can be compared.
+/// Encodes pressures, Pa, with interleaved channels as a WAV file with 16 bits per sample.
+///
+/// The last argument is the pressure at full scale, Pa: the peak pressure uses the full range without clipping; the same value for
+/// several files makes them comparable.
 ///
 /// # Errors
-/// A rate that is no whole number of samples, a number of channels other than 1 and 2, samples that are not a multiple of it, or not finite, or
-/// louder than full scale.
+/// The rate is not a whole number, the number of channels is not 1 or 2, the number of samples is not a multiple of it, or a sample is
+/// not finite or exceeds full scale.
 pub fn wav(
     samples: &[f32],
     channels: usize,

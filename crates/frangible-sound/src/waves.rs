@@ -4,14 +4,14 @@ use glam::DVec3;
 
 use crate::complex::Complex;
 
-/// Highest degree l of the spherical harmonics that carry a mode's surface motion. A sphere of radius a sends degree l well from
-/// k a ≈ l on, so that this one serves up to 6.5 kHz on a radius of 5 cm; above, a mode's finest pattern is left out.
+/// Highest degree l of the spherical harmonics that represent a mode's surface motion. A sphere of radius a radiates degree l efficiently
+/// from k a ≈ l on, so that this degree suffices up to 6.5 kHz for a radius of 5 cm; above, the finest pattern of a mode is omitted.
 pub const MOST_DEGREE: usize = 6;
 
 /// Number of real spherical harmonics up to [`MOST_DEGREE`].
 pub const HARMONICS: usize = (MOST_DEGREE + 1) * (MOST_DEGREE + 1);
 
-/// Index of the harmonic of degree l and order m, −l to l, in a list of them.
+/// Returns the index of the harmonic of degree l and order m, −l to l, in a list of harmonics.
 #[must_use]
 pub const fn harmonic(l: usize, m: isize) -> usize {
     ((l * l + l) as isize + m) as usize
@@ -26,8 +26,8 @@ pub(crate) const fn degree(place: usize) -> usize {
     l
 }
 
-/// All real spherical harmonics in a direction, orthonormal over the unit sphere; order m > 0 goes with cos mφ, m < 0 with sin |m|φ.
-/// The direction need not be of unit length; a zero one counts as +z.
+/// Returns all real spherical harmonics in a direction, orthonormal over the unit sphere: cos mφ for order m > 0, sin |m|φ for m < 0.
+/// The direction need not be of unit length; a zero vector counts as +z.
 #[must_use]
 pub fn harmonics(direction: DVec3) -> [f64; HARMONICS] {
     let d = direction.try_normalize().unwrap_or(DVec3::Z);
@@ -83,8 +83,8 @@ pub(crate) fn hankel_slopes(x: f64) -> [Complex; MOST_DEGREE + 1] {
     std::array::from_fn(|l| h[l].scaled(l as f64 / x) - h[l + 1])
 }
 
-/// Radiation efficiency of each degree: the power of a sphere of radius a whose surface moves as a harmonic of it, over that of as much
-/// plane wave, at k a = x. x²/(1+x²) for l = 0, x⁴/(4+x⁴) for l = 1.
+/// Returns the radiation efficiency of each degree at k a = x: the power of a sphere of radius a that vibrates in a harmonic of this
+/// degree, relative to that of a plane wave of the same area and velocity. x²/(1+x²) for l = 0, x⁴/(4+x⁴) for l = 1.
 #[must_use]
 pub fn efficiencies(x: f64) -> [f64; MOST_DEGREE + 1] {
     hankel_slopes(x).map(|slope| 1.0 / (x * x * slope.norm_squared()))

@@ -36,7 +36,7 @@ pub use under::Boundary;
 use under::{Lie, Under};
 use vertices::Vertices;
 
-/// Data of a render surface that every break needs.
+/// Index of a render surface, computed once and used by every break.
 #[derive(Debug)]
 pub struct RenderIndex {
     /// Over the triangles of the render surface.
@@ -66,10 +66,10 @@ pub struct Division {
     pub points: Vec<DVec3>,
 }
 
-/// A piece to be drawn.
+/// A piece whose render mesh is requested.
 #[derive(Clone, Copy, Debug)]
 pub struct Piece<'a> {
-    /// Its label.
+    /// Label of the piece in the partition.
     pub label: u32,
     /// Normals at the corners of its crack faces, face after face.
     pub normals: &'a [[Vec3; 3]],
@@ -111,7 +111,7 @@ impl Share {
 }
 
 impl RenderIndex {
-    /// Indexes a surface. `reach`: its largest distance from the boundary of the fracture mesh, m.
+    /// Indexes a surface. `reach` is its largest distance from the boundary of the fracture mesh, m.
     #[must_use]
     pub fn new(surface: &RenderSurface, boundary: &Boundary<'_>, reach: f32) -> Self {
         let normals = surface.corner_normals();
@@ -126,9 +126,10 @@ impl RenderIndex {
         }
     }
 
-    /// Computes the mesh to draw of each piece: its share of the surface and its crack faces, sewn to that share where the surface faces outwards.
+    /// Computes the render mesh of each piece: its share of the surface and its crack faces, sewn to that share if the surface faces
+    /// outwards.
     ///
-    /// `boundary`: over the boundary triangles of the fracture mesh.
+    /// `boundary` is the tree of the boundary triangles of the fracture mesh.
     #[must_use]
     pub fn divide(
         &self,

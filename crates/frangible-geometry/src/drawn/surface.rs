@@ -1,4 +1,4 @@
-//! The surface an author drew, carried along for those who draw.
+//! The authored surface, kept for rendering.
 
 use std::collections::HashMap;
 
@@ -6,31 +6,31 @@ use glam::Vec3;
 
 use crate::smooth_normals;
 
-/// The surface as its author drew it, kept for drawing and for clipping; physics never reads it.
+/// The authored surface, used for rendering and clipping only, never for physics.
 ///
-/// It need not be closed, nor touch the fracture mesh: only its indices and numbers are checked.
+/// It need not be closed or touch the fracture mesh; only its indices and values are checked.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RenderSurface {
     /// Vertex positions, m, body frame.
     pub positions: Vec<Vec3>,
-    /// Normals: none, or one per vertex.
+    /// Vertex normals; may be empty.
     pub normals: Vec<Vec3>,
-    /// Texture coordinates: none, or one pair per vertex.
+    /// Texture coordinates of the vertices; may be empty.
     pub uvs: Vec<[f32; 2]>,
-    /// Red, green, blue and opacity, each 0..=1: none, or one per vertex. Weakness may be painted with them, see
-    /// the module `weakness` of `frangible-bake`.
+    /// Vertex colours (red, green, blue and opacity, each 0..=1); may be empty. They can define local weakness, see the module
+    /// `weakness` of `frangible-bake`.
     pub colors: Vec<[f32; 4]>,
     /// Vertices of each triangle, counter-clockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
-    /// Index into [`RenderSurface::materials`]: none, or one per triangle.
+    /// Index of each triangle into [`RenderSurface::materials`]; may be empty.
     pub material_of_triangle: Vec<u32>,
     /// Materials of the triangles.
     pub materials: Vec<RenderMaterial>,
 }
 
 impl RenderSurface {
-    /// Unit normals at the corners of each triangle: the author's, or means over the triangles that share the corner's
-    /// place, flat where the surface turns sharply.
+    /// Returns unit normals at the corners of each triangle: the authored ones, or averages over the triangles at the corner's
+    /// position, except across sharp edges.
     #[must_use]
     pub fn corner_normals(&self) -> Vec<[Vec3; 3]> {
         let corners = |t: &[u32; 3]| t.map(|v| v as usize);
@@ -69,10 +69,10 @@ impl RenderSurface {
     }
 }
 
-/// Look of some triangles of a [`RenderSurface`], in the metallic-roughness model of glTF 2.0.
+/// Material of triangles of a [`RenderSurface`], in the metallic-roughness model of glTF 2.0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RenderMaterial {
-    /// Name its author gave it; may be empty.
+    /// Name of the material; may be empty.
     pub name: String,
     /// Linear red, green, blue and opacity, each 0..=1.
     pub base_color: [f32; 4],

@@ -24,7 +24,8 @@ const AT_PROJECTILE: f32 = 3.0;
 /// Cracks of one blow that sound by themselves, the longest; the energy of all is shared among these.
 const MOST_CRACKS: usize = 200;
 
-/// A blow on a thing, `time` s after the first frame, as plain data: the report of the fracture, and the numbers of the pieces where it broke.
+/// Converts a blow on an object, `time` s after the first frame, to plain data: the report of the fracture model, and the numbers of
+/// the pieces if it broke.
 #[must_use]
 pub fn recorded_blow(
     node: usize,

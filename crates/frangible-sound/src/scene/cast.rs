@@ -1,4 +1,4 @@
-//! The things of a scene that sound, by numbers that the caller gives them.
+//! The sound-emitting objects of a scene, by numbers chosen by the caller.
 
 use frangible::{Body, Material};
 use frangible_recording::Pose;
@@ -11,11 +11,11 @@ use glam::Vec3;
     reason = "one per thing in a scene, beside meshes and modes"
 )]
 pub enum Sounding {
-    /// A body, or a piece that can break again: it rings by its modes.
+    /// A body, or a piece with its own modes.
     Modes(Body),
-    /// A piece without modes of its own, by its material and mass, kg.
+    /// A piece without its own modes: its material and its mass, kg.
     Piece(Material, f64),
-    /// A projectile, as a ball of a radius, m, and a mass, kg, of this material.
+    /// A projectile, as a ball: its material, radius, m, and mass, kg.
     Ball(Material, f64, f64),
 }
 
@@ -29,7 +29,7 @@ impl Sounding {
         }
     }
 
-    /// Mass, kg.
+    /// Returns the mass, kg.
     #[must_use]
     pub fn mass(&self) -> f64 {
         match self {
@@ -39,7 +39,7 @@ impl Sounding {
     }
 }
 
-/// The things of a scene: a run that is over, or a world on the move.
+/// The objects of a scene: of a finished run or of a live world.
 pub trait Cast {
     /// Name of a thing.
     fn name(&self, node: usize) -> &str;

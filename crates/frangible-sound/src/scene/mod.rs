@@ -1,8 +1,8 @@
-//! The sound of a scene: its things, and the blows and touches that happen to them, on their way into a synthesiser.
+//! The sound of a scene: converts its objects, blows and contacts to the input of a synthesiser.
 //!
-//! The program that runs a scene or a game numbers the things in it ([`Cast`]) and reports events as plain data: blows with the forces
-//! that the fracture found ([`recorded_blow`]), touches and slides ([`Touching`] finds them in an engine's contacts). A
-//! [`Hearing`] makes bodies of a [`Synth`] of the things, and strikes of the events.
+//! The program that runs a scene or a game numbers its objects ([`Cast`]) and reports events as plain data: blows with the forces of the
+//! fracture model ([`recorded_blow`]), touches and slides, which [`Touching`] detects in the contacts of a physics engine. A
+//! [`Hearing`] converts the objects to bodies of a [`Synth`], and the events to strikes.
 
 mod blows;
 mod cast;
@@ -29,21 +29,21 @@ use nodes::Nodes;
 /// Time for which blows are remembered while a scene runs, s: touches within it are part of them.
 const REMEMBERED: f64 = 0.02;
 
-/// A synthesiser that hears a scene. The same calls give the same samples.
+/// A synthesiser for the sound of a scene. The same calls give the same samples.
 pub struct Hearing {
     synth: Synth,
     nodes: Nodes,
     /// Material of the floor.
     floor: Option<Material>,
-    /// Things that were struck, and when, s.
+    /// Struck objects, and the times of the blows, s.
     blows: Vec<(usize, f64)>,
 }
 
 impl Hearing {
-    /// A synthesiser for a scene with a floor of this material.
+    /// Creates a synthesiser for a scene with a floor of this material.
     ///
     /// # Errors
-    /// A number of the configuration that cannot be used.
+    /// A value of the configuration is invalid.
     pub fn new(config: SynthConfig, floor: Option<Material>) -> Result<Self, SoundError> {
         Ok(Self {
             synth: Synth::new(config)?,
@@ -53,46 +53,46 @@ impl Hearing {
         })
     }
 
-    /// The synthesiser.
+    /// Returns the synthesiser.
     #[must_use]
     pub fn synth(&self) -> &Synth {
         &self.synth
     }
 
-    /// The synthesiser, to move the listener.
+    /// Returns the synthesiser mutably, for example to move the listener.
     pub fn synth_mut(&mut self) -> &mut Synth {
         &mut self.synth
     }
 
-    /// Makes a thing ready to sound, lest its first blow waits.
+    /// Prepares an object for sound in advance, so that its first blow causes no delay.
     ///
     /// # Errors
-    /// A number of the thing that cannot be used.
+    /// A value of the object is invalid.
     pub fn ready(&mut self, cast: &dyn Cast, node: usize, time: f64) -> Result<(), SoundError> {
         let ready = self.nodes.ready(&mut self.synth, cast, node, time);
         ready.map(drop)
     }
 
-    /// Makes what all bodies of a thing's asset share, lest the first blow on one of them waits. Costs less than [`Hearing::ready`] where
-    /// there are many things that may never sound.
+    /// Prepares the data shared by all bodies of an object's asset, so that the first blow on one of them causes no delay. This is cheaper
+    /// than [`Hearing::ready`] if many objects may never sound.
     ///
     /// # Errors
-    /// A number of the thing that cannot be used.
+    /// A value of the object is invalid.
     pub fn prepare(&mut self, cast: &dyn Cast, node: usize) -> Result<(), SoundError> {
         self.nodes.prepare(cast, node)
     }
 
-    /// Silences a thing that is gone.
+    /// Silences a removed object.
     ///
     /// # Errors
-    /// A time that is not finite.
+    /// The time is not finite.
     pub fn hush(&mut self, node: usize, time: f64) -> Result<(), SoundError> {
         self.nodes
             .id(node)
             .map_or(Ok(()), |id| self.synth.hush(time, id))
     }
 
-    /// Forgets a thing at once; its ringing is cut off.
+    /// Removes an object immediately, including its ringing.
     pub fn forget(&mut self, node: usize) {
         if let Some(id) = self.nodes.forget(node) {
             // The synthesiser has it, as the list had.
@@ -100,48 +100,48 @@ impl Hearing {
         }
     }
 
-    /// Takes note of a blow: touches of the same thing at its time are part of it. Call it before the touches of that time.
+    /// Registers a blow, so that touches of the same object at the same time count as part of it. Call it before adding these touches.
     pub fn note(&mut self, blow: &RecordedBlow) {
         self.blows.push((blow.node, blow.time));
     }
 
-    /// Lets the forces of a blow be heard.
+    /// Adds the sound of the forces of a blow.
     ///
     /// # Errors
-    /// A number of the blow or of a thing that cannot be used.
+    /// A value of the blow or of an object is invalid.
     pub fn blow(&mut self, cast: &dyn Cast, blow: &RecordedBlow) -> Result<(), SoundError> {
         blows::blows(&mut self.synth, &mut self.nodes, cast, blow)
     }
 
-    /// Lets the cracks of a blow be heard.
+    /// Adds the sound of the cracks of a blow.
     ///
     /// # Errors
-    /// A number of the blow or of a thing that cannot be used.
+    /// A value of the blow or of an object is invalid.
     pub fn cracks(&mut self, cast: &dyn Cast, blow: &RecordedBlow) -> Result<(), SoundError> {
         blows::cracks(&mut self.synth, &mut self.nodes, cast, blow)
     }
 
-    /// Lets a touch be heard.
+    /// Adds the sound of a touch.
     ///
     /// # Errors
-    /// A number of the touch or of a thing that cannot be used.
+    /// A value of the touch or of an object is invalid.
     pub fn touch(&mut self, cast: &dyn Cast, touch: &RecordedTouch) -> Result<(), SoundError> {
         let known = (self.floor.as_ref(), &self.blows[..]);
         touches::touches(&mut self.synth, &mut self.nodes, cast, known, touch)
     }
 
-    /// Lets a slide be heard.
+    /// Adds the sound of a slide.
     ///
     /// # Errors
-    /// A number of the slide or of a thing that cannot be used.
+    /// A value of the slide or of an object is invalid.
     pub fn slide(&mut self, cast: &dyn Cast, slide: &RecordedSlide) -> Result<(), SoundError> {
         slides::slides(&mut self.synth, &mut self.nodes, cast, slide)
     }
 
-    /// Takes in the events of a step.
+    /// Adds the sound of the events of a step.
     ///
     /// # Errors
-    /// A number of an event that cannot be used; the events before it are heard.
+    /// A value of an event is invalid; the events before it have been added.
     pub fn happened(
         &mut self,
         cast: &dyn Cast,
@@ -162,7 +162,7 @@ impl Hearing {
         Ok(())
     }
 
-    /// Adds the sound up to a time, s, to `out`: pressures, Pa, left and right in turn. The last [`BLOCK`] samples come with the next step,
+    /// Adds the sound up to a time, s, to `out`: pressures, Pa, left and right interleaved. The last [`BLOCK`] samples come with the next step,
     /// so that events of that step begin on their samples.
     pub fn until(&mut self, time: f64, out: &mut Vec<f32>) {
         let config = self.synth.config();
@@ -175,10 +175,10 @@ impl Hearing {
         self.blows.retain(|(_, then)| time - then < REMEMBERED);
     }
 
-    /// All samples, Pa, until nothing is heard any more, for at most `most` seconds.
+    /// Renders all samples, Pa, until silence, but at most `most` seconds.
     ///
     /// # Errors
-    /// A time that is not finite or not above zero.
+    /// The time is not finite or not positive.
     pub fn until_silence(&mut self, most: f64) -> Result<Vec<f32>, SoundError> {
         self.synth.render_all(most)
     }

@@ -1,4 +1,4 @@
-//! The things of a scene as bodies of a synthesiser.
+//! The objects of a scene as bodies of a synthesiser.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -27,7 +27,7 @@ enum Shape {
 
 /// A node that sounds.
 struct Ready {
-    /// Its number in the synthesiser.
+    /// Number of the body in the synthesiser.
     id: usize,
     shape: Shape,
     body: Arc<Body>,

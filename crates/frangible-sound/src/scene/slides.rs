@@ -1,10 +1,10 @@
 //! The sound of sliding and rolling.
 //!
-//! Roughness of both surfaces shakes sliding bodies with a noise, and rolling ones more quietly, since the resistance to rolling takes less
-//! power than friction. The power of the noise is a share of that, and it is white up to the frequency at which the
-//! roughness passes the contact faster than the contact feels it: v over the length of its grain. Both are what van den Doel, Kry and Pai
-//! (FoleyAutomatic, SIGGRAPH 2001) take for scraping: a force whose power goes with the friction's, and a spectrum that goes with the speed.
-//! Their profile is a fractal one; a white one below the cut is its simplest case.
+//! The roughness of both surfaces excites sliding bodies with noise, and rolling ones less, since rolling resistance dissipates less power
+//! than friction. The power of the noise is a fraction of the dissipated power, and its spectrum is white up to the frequency v over the
+//! grain length, above which the contact averages out the roughness. This follows the model of scraping by van den Doel, Kry and Pai
+//! (FoleyAutomatic, SIGGRAPH 2001): the power of the force is proportional to that of friction, and the spectrum scales with the speed.
+//! Their profile is fractal; a spectrum that is white below a cut-off is the simplest case.
 
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;

@@ -1,4 +1,4 @@
-//! Touches, slides and rolling, found step by step in the contacts that an engine reports.
+//! Detection of touches, slides and rolling from the contacts reported by a physics engine in each step.
 
 use std::collections::BTreeMap;
 
@@ -29,23 +29,23 @@ const LEAST_POWER: f64 = 1e-4;
 /// Motion of a body: velocity, m/s, angular velocity, rad/s, and centre of mass, m.
 pub type Motion = [Vec3; 3];
 
-/// Two things that push each other in a step: one that is followed, and another one or a fixed body. Engines name bodies and
-/// colliders by numbers of their own.
+/// A contact in a step: between a tracked object and another object or a fixed body. Bodies and colliders are identified by the
+/// engine's numbers.
 #[derive(Clone, Copy, Debug)]
 pub struct Push {
-    /// Names of the two colliders, which are the same in the next step.
+    /// Identifiers of the two colliders, which must stay the same from step to step.
     pub colliders: [u64; 2],
-    /// Numbers of the things; none for a thing that is not followed.
+    /// Numbers of the objects; `None` for an object that is not tracked.
     pub nodes: (usize, Option<usize>),
-    /// Names of the bodies, in the order of the things; none for a collider without one.
+    /// Identifiers of the bodies, in the order of the objects; `None` for a collider without a body.
     pub bodies: [Option<u64>; 2],
-    /// Mass of the lighter one that moves, kg.
+    /// Mass of the lighter moving body, kg.
     pub lightest: f32,
     /// Position of the contact, m.
     pub point: Vec3,
-    /// Unit direction of the push on the first thing.
+    /// Unit direction of the force on the first object.
     pub normal: Vec3,
-    /// Position of the contact in the frames of the two colliders, m, in the order of the things.
+    /// Position of the contact in the frames of the two colliders, m, in the order of the objects.
     pub places: [Vec3; 2],
     /// Impulse along the normal in the step, N·s.
     pub impulse: f32,
@@ -53,29 +53,30 @@ pub struct Push {
     pub friction: f32,
 }
 
-/// A step that an engine took.
+/// Properties of a step of the physics engine.
 #[derive(Clone, Copy, Debug)]
 pub struct EngineStep {
-    /// Time of its end, s.
+    /// Time at the end of the step, s.
     pub time: f64,
-    /// Its length, s.
+    /// Length of the step, s.
     pub length: f32,
     /// Acceleration of gravity, m/s².
     pub gravity: f32,
-    /// Distance ahead of a contact's normal at which the pressure of a rolling body acts, m; zero where nothing resists rolling.
+    /// Lever arm of rolling resistance, m: the distance of the resultant pressure ahead of the contact's normal; zero without rolling
+    /// resistance.
     pub rolling_arm: f32,
 }
 
-/// Finds touches by comparing the pushes of a step with those of the step before.
+/// Detects touches by comparing the contacts of a step with those of the previous step.
 #[derive(Clone, Debug, Default)]
 pub struct Touching {
     /// Impulse of each pair of colliders in the latest step, N·s.
     pushed: BTreeMap<[u64; 2], f32>,
     /// Motion of each body after the latest step.
     moving: BTreeMap<u64, Motion>,
-    /// Steps so far.
+    /// Number of steps so far.
     steps: u64,
-    /// Time of the last look at slides and rolling, s.
+    /// Time of the last check for slides and rolling, s.
     looked: f64,
     /// Last contact of each pair: its position in the frames of the two colliders, m, and its time, s.
     places: BTreeMap<[u64; 2], Touched>,
@@ -84,11 +85,11 @@ pub struct Touching {
 type Touched = ([Vec3; 2], f64);
 
 impl Touching {
-    /// Finds the touches, slides and rolling of a step, from all pushes in it and the motion of the bodies after it.
+    /// Detects the touches, slides and rolling of a step from all its contacts and the motion of the bodies after it.
     ///
-    /// A pair of colliders touches if it pushes more than twice as hard as in the step before, and changes the speed of the lighter body by
-    /// more than 2 cm/s beyond its weight. The moment within the step is not known. All touches of a step at its end would be heard as
-    /// one loud clap, and steps as a tone of their own, so that each is put at a moment of the step that is drawn for it.
+    /// A pair of colliders touches if its impulse is more than twice that of the previous step, and changes the velocity of the lighter
+    /// body by more than 2 cm/s in addition to its weight. The exact time within the step is unknown. If all touches were placed at the
+    /// end of the step, they would sound like one loud clap, and the steps like a tone; each touch therefore gets a random time in the step.
     pub fn step(
         &mut self,
         step: &EngineStep,
