@@ -8,8 +8,8 @@ use crate::error::{SoundError, checked_full_scale, within};
 
 /// Encodes pressures, Pa, with interleaved channels as a WAV file with 16 bits per sample.
 ///
-/// The last argument is the pressure at full scale, Pa: the peak pressure uses the full range without clipping; the same value for
-/// several files makes them comparable.
+/// `rate` is in samples per second and `full_scale` in Pa. The peak pressure as `full_scale` uses the full range without clipping; the
+/// same value for several files makes them comparable.
 ///
 /// # Errors
 /// The rate is not a whole number, the number of channels is not 1 or 2, the number of samples is not a multiple of it, or a sample is

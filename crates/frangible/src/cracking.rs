@@ -327,14 +327,14 @@ impl<'a> Cracking<'a> {
 struct Looked {
     peak: Peak,
     asked_clusters: bool,
-    /// Largest bound of what was passed over, Pa.
+    /// Largest bound of the skipped stresses, Pa.
     passed_over: f32,
-    /// Largest bound of what was passed over, as the weakest point would feel it, Pa.
+    /// Largest bound of the skipped stresses, scaled to the strength of the weakest point, Pa.
     as_weakest: f32,
 }
 
 impl Looked {
-    /// A state that no stress exceeds: for runs that do not ask for the stress itself.
+    /// A state that no stress exceeds, for runs in which the stress itself is not requested.
     const AT_ENOUGH: Self = Self {
         peak: Peak::UNPASSABLE,
         asked_clusters: false,

@@ -312,8 +312,8 @@ pub fn take_blow(
     lost - part(pieces, &motions, lost - fracture.report.fracture_energy)
 }
 
-/// Returns true if a blow is over before all pieces, which come in the order of their distance from it, know of it: its [plug](push_plug) is less
-/// than half of what is loose. Short waves hold the energy that it gave, of which the motions of large pieces have little.
+/// Returns true if a blow ends before it affects all pieces, which are sorted by their distance from it: its [plug](push_plug) is less than half
+/// of the free mass. Its energy is then mainly in short waves, with little in the motion of large pieces.
 #[must_use]
 pub fn is_local(pieces: &[Rigid], striker: &[Rigid], pushes: &Pushes, taken: Kick) -> bool {
     let loose: Vec<Rigid> = pieces.iter().filter(|p| p.gives_way()).copied().collect();

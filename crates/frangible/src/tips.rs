@@ -1,15 +1,16 @@
-//! Fronts of old cracks (beyond the paper): a body that is cracked is weaker at its cracks' fronts.
+//! Fronts of existing cracks (an extension of the paper): a cracked body is weaker at its crack fronts.
 //!
-//! The front of a crack of length a that is there already is fed not by the strain energy of a layer γ (Eq. 12) but by the energy
-//! that its opening sets free, Griffith's `G = π a σ² / E'` per area (1921), σ the tension across it as if it were not there:
-//! a layer of depth 2πa. The length is the crack's area over that of its front, which serves all shapes: an edge crack and one
-//! across a plate have `K = 1.12` and `1.00 σ√(πa)`, a penny of radius R has `a = R/2` and `K = 0.90 σ√(πa)`.
+//! The energy for the growth of an existing crack of length a is not the strain energy of a layer γ (Eq. 12) but the energy released by its
+//! opening, `G = π a σ² / E'` per area (Griffith 1921), where σ is the tension across the crack plane without the crack. This is the energy
+//! of a layer of depth 2πa. The length is the area of the crack divided by the length of its front, which is a good approximation for all
+//! shapes: an edge crack and a crack across a plate have `K = 1.12` and `1.00 σ√(πa)`, a penny-shaped crack of radius R has `a = R/2` and
+//! `K = 0.90 σ√(πa)`.
 //!
-//! Modes that know the crack (those of a piece, or of a body analysed anew with its cracks) show part of its stress
-//! concentration: ahead of the front the mean over a distance H is `σ√(1 + 2a/H)` (Novozhilov 1969), H what their elements
-//! resolve. Hence the depth `2πa / (1 + 2a/H)`.
+//! Modes that include the crack (those of a piece, or of a body reanalysed with its cracks) resolve part of its stress
+//! concentration: ahead of the front, the mean over a distance H is `σ√(1 + 2a/H)` (Novozhilov 1969), where H is the resolution of the
+//! elements. Hence the depth `2πa / (1 + 2a/H)`.
 //!
-//! In a wall the tension's mean across it acts in full, its bending with `(1+ν) / 3(3+ν)` of it (Kirchhoff's plate; Zehnder and
+//! In a wall, the membrane tension acts fully, and the bending tension with the factor `(1+ν) / 3(3+ν)` (Kirchhoff plate; Zehnder and
 //! Viz 2005).
 
 use glam::Vec3;
@@ -24,14 +25,14 @@ use crate::stress::MARGIN;
 /// crack a fifth and a third of its depth) the front then gets 0.3 and 0.4 of the energy that the modes lose; with half a cell 0.13 and 0.15.
 const RESOLVED: f64 = 2.0;
 
-/// An old crack, as its front feels it.
+/// Data of an existing crack for the growth of its front.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tip {
     /// Area, m².
     area: f64,
-    /// Length of the front, m; 0 where it has none.
+    /// Length of the front, m; 0 without a front.
     front: f64,
-    /// H, m; infinite where the modes do not know the crack.
+    /// Resolution H, m; infinite if the modes do not include the crack.
     resolution: f64,
 }
 
@@ -43,8 +44,8 @@ impl Tip {
         resolution: f64::INFINITY,
     };
 
-    /// Depth of the layer that feeds its front with the strain energy of the tension across the crack, m, when the crack has grown by so
-    /// much area, m².
+    /// Returns the depth of the layer whose strain energy, from the tension across the crack, drives its front, m, after the crack has grown by
+    /// this area, m².
     pub(crate) fn depth(&self, grown: f64) -> f64 {
         if self.front <= 0.0 {
             return 0.0;
@@ -54,15 +55,15 @@ impl Tip {
     }
 }
 
-/// The front of a crack that a body has already ([`Body::crack_fronts`](crate::Body::crack_fronts)).
+/// The front of an existing crack of a body ([`Body::crack_fronts`](crate::Body::crack_fronts)).
 #[derive(Clone, Debug, PartialEq)]
 pub struct CrackFront {
-    /// Length a of the crack: its area over that of its front, m.
+    /// Length a of the crack: its area divided by the length of its front, m.
     pub length: f64,
-    /// Tension across it that moves the front where toughness is the material's, as the body's modes show it, Pa: Griffith's, or
-    /// more where the modes know the crack and show some of its stress concentration.
+    /// Critical tension across the crack for growth at the material's toughness, Pa, in terms of the stress computed from the body's modes:
+    /// Griffith's value, or more if the modes include the crack and resolve part of its stress concentration.
     pub strength: f64,
-    /// Fracture tetrahedra ahead, with the crack's normal there.
+    /// Fracture tetrahedra ahead of the front, with the crack normal at each.
     pub ahead: Vec<(u32, Vec3)>,
 }
 

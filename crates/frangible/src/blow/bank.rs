@@ -1,7 +1,7 @@
-//! Many oscillators side by side, stepped through a tick under forces that grow linearly.
+//! A bank of oscillators, stepped together through a tick under linearly varying forces.
 //!
-//! A contact is coupled to few of them: to the modes and to the wall oscillators about it, not to those about other contacts. So each force has
-//! *spans*, ranges of whole groups of oscillators: it pushes only those in some spans, and feels only those in others.
+//! A contact is coupled only to the modes and to the wall oscillators around it, not to those around other contacts. Each force therefore has
+//! *spans*, ranges of whole groups of oscillators: those that it drives, and those that contribute to its gap.
 
 use std::ops::Range;
 

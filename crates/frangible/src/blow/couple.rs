@@ -1,4 +1,5 @@
-//! Coupling of contacts to vibrating bodies: the oscillators that each contact pushes and feels, and the residual compliance.
+//! Coupling of contacts to vibrating bodies: the oscillators driven by each contact, those that contribute to its gap, and the residual
+//! compliance.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -12,7 +13,8 @@ use crate::contact::Receptance;
 use crate::near_field::Bands;
 
 impl Plan {
-    /// Couples the contacts to the body: they push its oscillators, and feel these or, if any contact rubs, copies that friction does not push.
+    /// Couples the contacts to the body. They drive its oscillators; their gaps depend on these, or with friction on copies that are driven by
+    /// the normal forces only.
     pub(super) fn couple_body(&mut self, felt: &[(Receptance, Push)]) {
         let rubs = |s: &Site| s.touch.contact.friction != Vec3::ZERO;
         let rubs = self.sites.iter().any(rubs);
@@ -35,7 +37,8 @@ impl Plan {
         };
     }
 
-    /// Sets the contacts' pushes on the oscillators of their bodies, and what they feel of them. Returns the residual compliances, m/N, row-major.
+    /// Sets the contacts' forces on the oscillators of their bodies, and the contributions of these to the gaps. Returns the residual compliances,
+    /// m/N, row-major.
     fn couple(&mut self, contacts: &[Coupled<'_>]) -> Vec<f64> {
         let count = self.sites.len();
         let mut compliance = vec![0.0; count * count];
@@ -77,7 +80,7 @@ impl Plan {
         compliance
     }
 
-    /// Adds the oscillators of breakable strikers, which their contacts feel. Contacts of one striker at several points push the same modes.
+    /// Adds the oscillators of breakable strikers, which contribute to the gaps of their contacts. Several contacts of a striker share its modes.
     pub(super) fn add_strikers(&mut self) {
         let strikers: Vec<(usize, Arc<Receptance>)> = (self.sites.iter().enumerate())
             .filter_map(|(k, site)| {
@@ -123,11 +126,11 @@ impl Plan {
         self.strikers = before..self.oscillators.len();
     }
 
-    /// Adds the body's oscillators once more, driven by the normal forces alone, and lets the contacts feel these in place of the ones that friction
-    /// drives too.
+    /// Adds copies of the body's oscillators that are driven by the normal forces only, and uses them for the gaps in place of those also driven
+    /// by friction.
     ///
-    /// Friction follows the normal force, and may move the touched place towards the striker: felt, it would add energy without end. Returns the
-    /// residual compliances that the contacts feel, m/N, row-major.
+    /// Friction is proportional to the normal force and may move the contact point towards the striker; if this affected the gap, it could add
+    /// energy without bound. Returns the residual compliances for the gaps, m/N, row-major.
     fn feel_without_friction(&mut self, felt: &[(Receptance, Push)]) -> Vec<f64> {
         let first = self.fill_group();
         self.felt_first = first;
@@ -169,16 +172,16 @@ struct Coupled<'a> {
     /// Push of the contact on the body's modes, 1/√kg, and share of its force that acts across the wall.
     drive: &'a [f64],
     across: f64,
-    /// If true, the contact feels these oscillators.
+    /// True if these oscillators contribute to the gap of the contact.
     is_felt: bool,
-    /// Number of the body's first mode among the oscillators: contacts with the same number push the same modes.
+    /// Number of the body's first mode among the oscillators: contacts with the same number drive the same modes.
     first: usize,
     /// The wall oscillators about the contact, and the bands that they stand for.
     waves: Option<(Range<usize>, Bands)>,
 }
 
 impl<'a> Coupled<'a> {
-    /// Coupling to a body that the contact's normal force alone pushes, and that the contact feels.
+    /// Creates the coupling to a body that is driven by the contact's normal force only and contributes to its gap.
     fn without_friction(
         contact: usize,
         felt: &'a Receptance,

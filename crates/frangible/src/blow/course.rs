@@ -179,7 +179,7 @@ impl Blow {
         self.motion = motion;
     }
 
-    /// Stress of the body at the weak point of fracture tetrahedron `tet` at a time step of the blow, Pa, as cracks feel it.
+    /// Returns the stress at the weak point of fracture tetrahedron `tet` at a time step of the blow, Pa, as used for crack initiation.
     #[must_use]
     pub fn stress(
         &self,

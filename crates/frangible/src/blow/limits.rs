@@ -1,10 +1,10 @@
-//! Limits of the impulse and the force of a contact, known before the blow is integrated: they allow contacts to be refused unseen.
+//! Upper bounds of the impulse and the force of a contact before the blow is integrated, which allow harmless contacts to be rejected early.
 //!
 //! With B the inverse masses of the rigid bodies at the contacts and v the approach there, the motion of approach holds the energy `T = ½ vᵀ B⁻¹ v`,
 //! and nothing adds to it: springs, modes and wall oscillators, also those of a striker that vibrates, are at rest before the blow and only store,
-//! pass on and lose energy. A script does add to it, so no limit is known if scripts push beside strikers. The forces do not feel what friction
-//! moves. So the limits need no modes, and hold with and without those of a striker:
-//! - Hertz's spring of a contact never holds more than T: its force stays below that at which it holds T;
+//! pass on and lose energy. Scripted forces do add to it, so there is no bound if they act together with strikers. Friction does not affect the normal
+//! forces. The bounds therefore need no modes, and hold with and without those of a striker:
+//! - the Hertz spring of a contact never stores more than T, which limits its force;
 //! - the impulses J of the contacts so far have left the approach v − B J, which holds at most T as well. So `½ Jᵀ B J ≤ 4 T`, and so
 //!   `J_k ≤ √(8 T (B⁻¹)_kk)`. If no contact's push helps another (all of B ≥ 0), `J_k ≤ √(8 T / B_kk)`, which is less; for a single contact this
 //!   is `2 v / B`.

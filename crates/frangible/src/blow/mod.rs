@@ -1,10 +1,10 @@
-//! A blow, integrated against the body that it hits (beyond the paper).
+//! Time integration of a blow together with the struck body (an extension of the paper).
 //!
 //! # Idea
 //!
-//! The force and the duration of a contact follow from the two bodies: from the striker's mass, Hertz's spring between them, and the
-//! motion of the struck body under the force, rigid and vibrating. No pulse is prescribed: the striker arrives with its speed, and force,
-//! duration, impulse and restitution are results. A wall that absorbs the blow lets the striker drop; a brick throws it back.
+//! The force and the duration of a contact follow from the two bodies: from the striker's mass, the Hertz contact stiffness, and the
+//! rigid-body and vibrational response of the struck body. No pulse is prescribed: the input is the striker's velocity, and force,
+//! duration, impulse and restitution are results. A striker drops from a thin wall that absorbs the blow and rebounds from a brick.
 //!
 //! # Equations
 //!
@@ -13,35 +13,35 @@
 //! `g_k = y_k − Σ_i ξ_ki q_i − Σ_l c_kl F_l = (F_k / K_k)^(2/3)`, `ÿ_k = −Σ_l B_kl F_l`, `q̈_i + d_i q̇_i + λ_i q_i = Σ_k ξ_ki F_k`,
 //!
 //! where y is the displacement of the striker relative to the rigid motion of the body, B the inverse masses of the rigid bodies at the contacts,
-//! with rotation, q the amplitudes of the followed modes and, on a wall, of the wall oscillators (`near_field`), c the residual compliance of the
-//! modes and waves left out, and `K = 4/3 E* √R` the stiffness of Hertz's spring, which yields where the pressure under it crushes the weaker body
-//! (`spring.rs`). F is linear over each substep, so every oscillator is stepped exactly. The new forces solve one equation per contact, which has
-//! exactly one root, as the left side falls with F and the right side grows.
+//! with rotation, q the amplitudes of the integrated modes and, on a wall, of the wall oscillators (`near_field`), c the residual compliance of the
+//! omitted modes and waves, and `K = 4/3 E* √R` the Hertz contact stiffness, which yields if the contact pressure crushes the weaker body
+//! (`spring.rs`). F is linear over each substep, so every oscillator is integrated exactly. The new forces solve one equation per contact, which
+//! has exactly one root, since the left side decreases with F and the right side increases.
 //!
-//! A breakable striker vibrates too. The contact feels it in the same way ([`Receptance`]): its modes, its wall oscillators and its residual
-//! compliance are driven by the same F_k and subtracted from the gap with the body's. St Venant's two rods and Hertz's two spheres are limits of it.
+//! A breakable striker vibrates too and is treated in the same way ([`Receptance`]): its modes, its wall oscillators and its residual compliance
+//! are driven by the same F_k and subtracted from the gap with those of the body. St Venant's two rods and Hertz's two spheres are limiting cases.
 //!
-//! Friction follows the normal force: the body is pushed along n + f, f the ratio of the engine's friction and normal impulse. The force itself does
-//! not feel friction: q in the first equation is the response to the normal forces alone, as y is the striker's displacement under them alone. A
-//! force that felt the wall moved by friction could grow without end, since friction takes its energy from a slide that is not followed. A script
-//! gives its push whole: friction is part of it.
+//! Friction is proportional to the normal force: the force on the body acts along n + f, where f is the ratio of the engine's friction impulse and
+//! normal impulse. Friction does not affect the normal force: q and y in the first equation are the responses to the normal forces only. Otherwise
+//! the force could grow without bound, since friction takes its energy from a sliding motion that is not simulated. Scripted forces already
+//! include friction.
 //!
-//! Cracks change what the contacts push against, and from then on forces, motion and cracks are found anew:
-//! - a star of three arms or more under a contact leaves cantilevers, which give way more (`star.rs`);
-//! - pieces that cracks have parted move on their own (`parted.rs`, `flight.rs`): the contact feels the mass of the piece that it pushes, and what
-//!   the piece presses on.
+//! Cracks change the resistance to the contacts, and from then on forces, motion and cracks are recomputed:
+//! - a star crack with three or more arms under a contact leaves cantilevers, which are more compliant (`star.rs`);
+//! - separated pieces move independently (`parted.rs`, `flight.rs`): the resistance is that of the mass of the piece under the contact, and of
+//!   the body behind it.
 //!
 //! # Limits
 //!
-//! Crushing is a dent and a loss of energy: no powder flies, and the crushed place keeps its mass and stiffness. Steel strikers do not dent. A
-//! contact that chatters is followed until all its points have parted; if the body then swings back against a striker that is still near, it does not
-//! hit it again. Once pieces move on their own, an open contact is followed for as long again as it was expected to last: a chip bounces between the
-//! striker and the body that follows. A striker that still approaches then goes on to what the piece under it was part of, at the same place. Two
-//! bodies that both vibrate find the same force, whichever of them is computed, as long as they meet nothing else and neither has broken: the blow on
-//! the body contains no other contacts of the striker, and no softening by the striker's own cracks.
+//! Crushing is modelled as an indentation with a loss of energy: no powder is ejected, and the crushed region keeps its mass and stiffness. Steel
+//! strikers do not indent. A chattering contact is integrated until all its points have separated; if the body then swings back against a striker
+//! that is still near, there is no second blow. Once pieces move independently, an open contact is integrated for as long again as its expected
+//! duration, since a chip may bounce between the striker and the body behind it. A striker that still approaches then hits the rest of the body at
+//! the same point. Two vibrating bodies have the same contact force whichever of them is computed, as long as they have no other contacts and
+//! neither has broken: the blow on a body does not include other contacts of the striker or softening by the striker's cracks.
 //!
-//! Forces are linear over substeps of a hundredth of Hertz's time (a four-hundredth where both bodies vibrate), every oscillator is stepped
-//! exactly, and one equation per contact and substep has one root. Steps after the blow are as long as the modes allow.
+//! Substeps are a hundredth of the Hertz contact duration, or a four-hundredth if both bodies vibrate. Steps after the blow are as long as the
+//! modes allow.
 
 mod accounts;
 mod apart;

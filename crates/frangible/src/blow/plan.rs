@@ -1,5 +1,5 @@
-//! Everything that a blow is integrated with: the contacts' pushes on the modes and the wall oscillators, what the contacts feel of these, the
-//! residual compliance, and the steps.
+//! Data for the integration of a blow: the contacts' forces on the modes and wall oscillators, the contributions of these to the gaps, the
+//! residual compliance, and the time steps.
 
 use std::ops::Range;
 
@@ -37,22 +37,21 @@ pub(super) struct Site {
     pub(super) residual: Vec<f64>,
 }
 
-/// Everything that a blow is integrated with.
+/// Data for the integration of a blow.
 #[derive(Clone, Debug)]
 pub(super) struct Plan {
     pub(super) sites: Vec<Site>,
-    /// Modes that are followed.
+    /// Number of integrated modes.
     pub(super) modes: usize,
     /// Oscillators of the body: its modes and, after them, its wall oscillators.
     pub(super) own: usize,
-    /// ω and d of the body's oscillators and, after them, of [those that the contacts feel instead](Plan::feel_without_friction) and those of
-    /// breakable bodies that strike it.
+    /// ω and d of the body's oscillators, then of [their copies without friction](Plan::feel_without_friction), then of breakable strikers.
     pub(super) oscillators: Vec<(f64, f64)>,
-    /// Number of the first of the modes that the contacts feel: 0, or of [those that they feel instead](Plan::feel_without_friction).
+    /// Index of the first mode that contributes to the gaps: 0, or that of the [copies without friction](Plan::feel_without_friction).
     pub(super) felt_first: usize,
     /// α, s, and β, 1/s, of the damping α λ + β.
     pub(super) rayleigh: [f64; 2],
-    /// The oscillators of breakable bodies that strike.
+    /// Oscillators of breakable strikers.
     pub(super) strikers: Range<usize>,
     /// 1/ω of the modes, s.
     pub(super) periods: Vec<f64>,
@@ -60,9 +59,9 @@ pub(super) struct Plan {
     pub(super) drive: Vec<Vec<f64>>,
     /// Reduction of each contact's gap per ω q of each oscillator, s/√kg.
     pub(super) gap: Vec<Vec<f64>>,
-    /// The oscillators that each contact pushes.
+    /// Oscillators driven by each contact.
     pub(super) pushed: Vec<Vec<Range<usize>>>,
-    /// The oscillators that each contact feels.
+    /// Oscillators that contribute to the gap of each contact.
     pub(super) felt: Vec<Vec<Range<usize>>>,
     /// B of the rigid bodies, 1/kg: row-major.
     pub(super) inverse_mass: Vec<f64>,
@@ -167,7 +166,7 @@ impl Plan {
         Some(plan)
     }
 
-    /// φ · n of the modes that are followed, as a contact feels them, 1/√kg.
+    /// φ · n of the integrated modes in the gap of a contact, 1/√kg.
     pub(super) fn felt_by(&self, contact: usize) -> impl Iterator<Item = f64> {
         let gap = &self.gap[contact][self.felt_first..self.felt_first + self.modes];
         gap.iter()

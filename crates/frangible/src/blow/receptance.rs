@@ -73,8 +73,10 @@ impl Receptance {
 
 impl Striker {
     /// Describes a breakable body that strikes another one and vibrates under the same force: its material, and its mass, curvature and modes at the
-    /// place of contact. The blows on both bodies then find the same force over time. `contact`: the contact as the striker feels it, in its own body
-    /// frame, with the impulse **on the striker**; of that contact's own striker only the restitution of the pair is used.
+    /// place of contact. The blows on both bodies then have the same force over time.
+    ///
+    /// `contact` is the contact on the striker, in the striker's body frame, with the impulse **on the striker**; of its own `striker` only the
+    /// restitution of the pair is used.
     ///
     /// # Errors
     /// Returns the errors of [`Contact::validate`] and [`FractureConfig::validate`].

@@ -1,14 +1,13 @@
-//! The size of the flaw that a weak point stands for (beyond the paper).
+//! The flaw size of weak points (an extension of the paper).
 //!
-//! Griffith's criterion gives a strength R in a material of toughness K_Ic a flaw of depth `a = (K_Ic / Y R)² / π`, Y = 1.12 for a long and
-//! shallow one. A stress that varies over such a flaw does not open it as its peak would: the flaw feels the mean over its own size, so that a
-//! narrow peak needs much more than the strength and a wide tension no more. The mean is taken over a ball about the weak point,
-//! cut by the body.
+//! By Griffith's criterion, a strength R and a toughness K_Ic correspond to a flaw of depth `a = (K_Ic / Y R)² / π`, with Y = 1.12 for a long,
+//! shallow flaw. If the stress varies over the flaw, its mean over the flaw size and not its peak decides: a narrow peak must exceed the
+//! strength considerably, a uniform tension only just. The mean is taken over the part of a ball about the weak point that lies in the body.
 //!
-//! No flaw is larger than that of the specimen's strength R_s, nor deeper than half of the body's thickness H:
-//! `a = min(a(R), a(R_s), H/2)`. A beam that is bent then bears 1.2 to 1.8 times R_s, as with cohesive cracks.
+//! The flaw is no larger than that of the specimen strength R_s, and no deeper than half of the body's thickness H:
+//! `a = min(a(R), a(R_s), H/2)`. A beam in bending then withstands 1.2 to 1.8 times R_s, as with cohesive cracks.
 //!
-//! If the ball is smaller than the weak point's own tetrahedron, the stress at the weak point is taken.
+//! If the ball is smaller than the weak point's tetrahedron, the stress at the weak point is used.
 
 use glam::{Mat3, Vec3};
 

@@ -60,8 +60,7 @@ impl WeakClusters {
         }
     }
 
-    /// Bounds of the stress of each mode that the weak points of the cluster at place `i` of `clusters` may feel, Pa per m·√kg, and of its
-    /// displacement gradient.
+    /// Returns bounds of the stress, Pa per m·√kg, and of the displacement gradient of each mode at the weak points of cluster `clusters[i]`.
     #[inline(always)]
     pub(crate) fn rows<'a>(
         &'a self,

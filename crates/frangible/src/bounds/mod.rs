@@ -1,4 +1,4 @@
-//! Numbers that bound the stress of a body, found once for its kind (beyond the paper); the questions that they answer are in `refuse`.
+//! Stress bounds of a kind of body, computed once (an extension of the paper); the module `refuse` uses them.
 
 mod clusters;
 mod per_impulse;

@@ -12,24 +12,24 @@ use crate::near_field::{PlateTheory, WallMaterial};
 pub struct Receptance {
     /// λ of every mode, 1/s².
     pub(crate) eigenvalues: Vec<f64>,
-    /// Modes that are followed through time; those after them follow the force.
+    /// Number of modes that are integrated through time; the others respond statically.
     pub(crate) followed: usize,
     /// Rayleigh's damping `d = stiffness_damping λ + mass_damping`, s and 1/s.
     pub(crate) stiffness_damping: f64,
     pub(crate) mass_damping: f64,
-    /// φ · n of every mode, 1/√kg: how the contact feels it, and how its normal force pushes it.
+    /// φ · n of every mode, 1/√kg: its contribution to the gap and to the modal force of the contact.
     pub(crate) shape: Vec<f64>,
-    /// The wall that goes on where the modes end.
+    /// Receptance of the wall beyond the modes.
     pub(crate) wall: Option<WallReceptance>,
     /// Radius of the ball of the body's volume, with which flat on flat is taken to touch, m.
     pub(crate) ball_radius: f64,
 }
 
-/// Receptance of the wall behind a contact, in waves that the modes leave out.
+/// Receptance of the wall behind a contact due to waves that the modes omit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct WallReceptance {
     pub(crate) material: WallMaterial,
-    /// A contact is never wider than this, m.
+    /// Largest width of a contact, m.
     pub(crate) widest: f64,
     /// Lowest angular frequency, rad/s.
     pub(crate) lowest: f64,

@@ -1,4 +1,4 @@
-//! Stress that a crack feels where it runs.
+//! Stress at the front of a growing crack.
 
 use glam::Vec3;
 
@@ -7,7 +7,7 @@ use crate::stress::{StressState, Symmetric3, Wall, largest_eigenvalue};
 /// Cosine from which on the normals of a wall at two tetrahedra that touch belong to one face.
 pub(super) const SAME_FACE: f32 = 0.3;
 
-/// Stress and strain energy that a crack feels in a tetrahedron.
+/// Stress and strain energy that act on a crack in a tetrahedron.
 pub(crate) struct Felt {
     /// Stress and strain energy; in a wall the stress of its middle and the mean of the energy.
     pub(crate) state: StressState,

@@ -1,4 +1,4 @@
-//! The body's stress at one time step, evaluated where it is asked for.
+//! The body's stress at one time step, evaluated on demand.
 
 use glam::Vec3;
 
@@ -58,9 +58,9 @@ impl<'a> StressField<'a> {
         }
     }
 
-    /// Stress that a crack feels at the place, m, where it cuts fracture tetrahedron `e`: in a solid the stress and energy there, in a wall the
-    /// stress on both faces beside it and the mean of the energy through the wall. At the centroid, which lies up to an edge beside the crack, the
-    /// stress about a contact is another: arms would be turned to where the mesh has its tetrahedra.
+    /// Returns the stress on a crack at the position, m, where it cuts fracture tetrahedron `e`: in a solid the stress and energy there, in a wall
+    /// the stress on both faces and the mean energy through the wall. The centroid may lie an edge length from the crack, where the stress near
+    /// a contact differs; using it would align crack arms with the mesh.
     pub(crate) fn at(&mut self, e: usize, place: Vec3) -> Felt {
         let aside = place - self.centroids[e];
         let centre = shifted(self.asset, self.asset.embedded_tet(e), aside);

@@ -55,8 +55,8 @@ struct Candidate<'a> {
 
 /// Runs and starts all cracks of the field's step, which lasts from one time, s, to another; returns the largest tension met at a weak point so far.
 ///
-/// Instant cracks start at the step, the most stressed first. Others start when their stress passes the strength, taken
-/// as linear between the steps, and feel what ran and was released before: the number of starts does not depend on the step.
+/// Instant cracks start at the step, the most stressed first. Others start when their stress, interpolated linearly between steps, exceeds the
+/// strength, taking into account the growth and release of earlier cracks; the number of starts does not depend on the step length.
 pub(crate) fn crack(
     system: &mut CrackSystem,
     field: &mut StressField,

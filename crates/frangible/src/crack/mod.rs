@@ -1,20 +1,21 @@
-//! Cracks: their start, run and end `[G12 §4.4, §5]`.
+//! Cracks: initiation, propagation and arrest `[G12 §4.4, §5]`.
 //!
-//! *Start* (`initiation.rs`). A crack starts where the stress at a weak point passes its strength. Stress is linear from one time step to the
-//! next, so the moment lies between the steps, and the number of cracks does not depend on the step.
+//! *Initiation* (`initiation.rs`). A crack starts where the stress at a weak point exceeds its strength. Stress is interpolated linearly between
+//! time steps, so cracks start between steps, and their number does not depend on the step length.
 //!
-//! *Run* (`propagation.rs`). Fronts spread over the crack's own surface (`arrival.rs`). A front enters a neighbouring tetrahedron if the crack
-//! crosses it, meets nothing there and can pay for it. A crack through a wall opens from one face and follows the tension of that face: cracks that
-//! turned to whichever face had the larger tension curled into petals. The mean energy through the wall feeds it. It may leave a second crack behind
-//! (`branching.rs`), and passes one that opens from the other face of the wall (`passing.rs`).
+//! *Propagation* (`propagation.rs`). Fronts spread over the crack's own surface (`arrival.rs`). A front enters a neighbouring tetrahedron if the
+//! crack surface crosses it, there is no obstacle, and the available energy suffices. A crack through a wall opens from one face and follows the
+//! tension of that face; if it followed the face with the larger tension, it would curl into petals. It is driven by the mean energy through the
+//! wall. It may branch (`branching.rs`), and may cross a crack that opens from the other face of the wall (`passing.rs`).
 //!
-//! *Release* (`release.rs`). A crack unloads the material beside it. A weak point looks at the cracks only when one is about to start there that can
-//! be paid. Released stress stays released, so the point needs no look if the release that it remembers already keeps it below its strength. It looks
-//! at all places of all cracks near by, eight of them side by side. Under a blow whose forces are followed with the body, a piece that is cut off
-//! moves on its own, or comes to rest as a whole where it is small (`crate::blow`, `rest.rs`).
+//! *Release* (`release.rs`). A crack unloads the material beside it. The release at a weak point is evaluated only if a crack is about to start
+//! there with sufficient energy. Released stress stays released, so no evaluation is needed if the stored release already keeps the stress below
+//! the strength. All positions on all nearby cracks are evaluated, eight at a time. In an integrated blow, a separated piece moves independently,
+//! or comes to rest as a whole if it is small (`crate::blow`, `rest.rs`).
 //!
-//! *Old cracks* (`crate::tips`). The front of a crack from an earlier impact follows Griffith: a crack of centimetres is fed from a layer of depth
-//! 2πa, where a is its area over the length of its front. Cracks that a piece's own modes know release nothing more.
+//! *Existing cracks* (`crate::tips`). The front of a crack from an earlier impact follows Griffith's criterion: the energy of a crack of
+//! centimetres comes from a layer of depth 2πa, where a is its area divided by the length of its front. Cracks that are included in a piece's own
+//! modes release no further stress.
 
 mod arrival;
 mod branching;

@@ -1,4 +1,4 @@
-//! Resistance of one body to cracks at each place: its fields, its scatter, and the least of them where bounds ask.
+//! Local fracture resistance of a body: its fields, its scatter, and their minimum for the bounds.
 
 use std::sync::Arc;
 
@@ -218,7 +218,7 @@ impl Resistance {
         strengths.min_by(f32::total_cmp).unwrap_or(f32::INFINITY)
     }
 
-    /// Stress at a point of this strength below which the weakest point would feel no more than `felt`, Pa.
+    /// Converts a stress scaled to the weakest point's strength to the equivalent stress at a point of this strength, rounded down, Pa.
     pub(crate) fn at_strength(&self, felt: f32, strength: f32) -> f32 {
         if self.of_tet.is_empty() {
             felt
@@ -227,7 +227,7 @@ impl Resistance {
         }
     }
 
-    /// A stress as a body of the weakest strength everywhere would feel it, Pa: of equal share of the strength.
+    /// Scales a stress at a point of this strength to the strength of the weakest point, Pa, keeping the ratio of stress to strength.
     pub(crate) fn as_weakest(&self, stress: f32, strength: f32) -> f32 {
         if self.of_tet.is_empty() {
             stress

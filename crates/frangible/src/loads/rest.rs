@@ -30,11 +30,11 @@ pub struct Force {
 /// Crack paths are followed over so many diagonals of the body: cracks that turn are longer than straight ones.
 const DIAGONALS: f64 = 3.0;
 
-/// Computes the outcome of steady forces on a body: the contacts it rests on, and what rests on it. `gravity` (m/s², body frame) is the
-/// acceleration of a held body's weight; a free body's does not matter.
+/// Computes the outcome of static forces on a body: the contacts that it rests on, and the loads that rest on it.
 ///
-/// Nearly always nothing happens, and that costs microseconds and no allocation: ask at every step. The load's work as cracks
-/// open is not limited by the energy ledger: a weight goes on pushing. The strength is that which static fatigue leaves after
+/// `gravity` (m/s², body frame) is used for the weight of a supported body; it has no effect on a free body. In nearly all cases nothing
+/// breaks, which takes microseconds and no allocation, so that the function can be called at every step. The energy ledger does not limit
+/// the work of the load, since a weight continues to act as cracks open. The strength is reduced by static fatigue over
 /// [`FractureConfig::load_duration`].
 ///
 /// # Errors

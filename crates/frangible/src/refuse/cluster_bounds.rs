@@ -56,7 +56,7 @@ impl<'a> ClusterBounds<'a> {
         limit(self.body.clusters.weakest[part])
     }
 
-    /// The bound as the body's weakest point would feel it, Pa.
+    /// Returns the bound scaled to the strength of the body's weakest point, Pa.
     pub(crate) fn as_weakest(&self, part: usize, bound: f32) -> f32 {
         let weakest = self.body.clusters.weakest[part];
         self.body.resistance.as_weakest(bound, weakest)

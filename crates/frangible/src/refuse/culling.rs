@@ -15,9 +15,9 @@ pub(crate) struct Culling<'a> {
     body: &'a Body,
     on: bool,
     quadratic_modulus: f32,
-    /// Largest bound of what was passed over so far, Pa.
+    /// Largest bound of the skipped stresses so far, Pa.
     pub(crate) passed_over: f32,
-    /// Largest bound of what was passed over so far, as the weakest point would feel it, Pa.
+    /// Largest bound of the skipped stresses so far, scaled to the strength of the weakest point, Pa.
     pub(crate) as_weakest: f32,
     /// True if the bound of the whole body ever failed to refuse a time step.
     pub(crate) asked_clusters: bool,

@@ -19,19 +19,19 @@ use crate::contact::{Contact, give, hertz_at};
 use crate::mesh::SurfacePoint;
 use crate::outcome::LookedAt;
 
-/// Bounds that show that an impact does nothing.
+/// Bounds that show that an impact is harmless.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Refusal {
     /// Level of detail at which the impact was decided.
     pub(crate) looked_at: LookedAt,
     /// Upper bound of the tension at all weak points, Pa.
     pub(crate) bound: f32,
-    /// Upper bound of that tension as the weakest point would feel it, Pa.
+    /// Upper bound of that tension, scaled to the strength of the weakest point, Pa.
     pub(crate) as_weakest: f32,
 }
 
 impl Refusal {
-    /// Raises the bounds to another one, and to that as the weakest point would feel it, Pa.
+    /// Raises the bounds to another bound and its value scaled to the strength of the weakest point, Pa.
     pub(crate) fn raise(&mut self, bound: f32, as_weakest: f32) {
         self.bound = self.bound.max(bound);
         self.as_weakest = self.as_weakest.max(as_weakest);

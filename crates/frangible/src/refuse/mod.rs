@@ -1,11 +1,11 @@
-//! Bounds that refuse what does nothing, before it is computed (beyond the paper).
+//! Upper bounds of the stress that reject harmless contacts early (an extension of the paper).
 //!
-//! Nearly all contacts of a game are harmless. Each bound here is never below the stress that it stands for, rounding included, so what
-//! is refused would have cracked nothing, and what breaks is the same bit for bit without the bounds.
+//! Nearly all contacts in a game are harmless. Each bound is at least the stress that it bounds, including rounding, so a rejected contact
+//! would not have caused a crack, and the outcome of fracture is bit-identical without the bounds.
 //!
-//! They come after the physics: nothing of how bodies vibrate and crack knows them, but for the two front doors
-//! ([`impact()`](crate::impact()) and [`rest`](crate::internals::rest)), which ask them first, and the loop over time steps, which asks
-//! them what to pass over ([`Culling`]). What they need of a body is found once for its kind, by the module `bounds`.
+//! The physics modules do not depend on the bounds, except for the two entry points ([`impact()`](crate::impact()) and
+//! [`rest`](crate::internals::rest)), which evaluate them first, and the loop over time steps, which uses them to skip work ([`Culling`]).
+//! The module `bounds` computes the required data once per kind of body.
 
 mod cluster_bounds;
 mod culling;
@@ -25,8 +25,8 @@ use crate::contact::Contact;
 use crate::stress::limit;
 use crate::tips::front_limit;
 
-/// Returns true if a bound that costs microseconds shows that an impact does nothing to a body; [`impact()`](crate::impact()) asks it first.
-/// False says nothing.
+/// Returns true if a bound that takes microseconds shows that an impact has no effect on a body; [`impact()`](crate::impact()) calls it first.
+/// A result of false is inconclusive.
 #[must_use]
 pub fn is_harmless(body: &Body, contacts: &[Contact], config: &FractureConfig) -> bool {
     config.culling

@@ -1,19 +1,19 @@
 //! Displacements, strains and stresses `[G12 §4.4]`.
 //!
-//! The modes' amplitudes give the displacements of the analysis nodes, those the gradient at a point, and a law makes stress of it. Which law
-//! holds depends on the place: flaws lie on the surface, where no traction acts, and thin walls are in plane stress (`skin.rs`, `wall.rs`).
-//! In a plate of one layer of tetrahedra the stress at their centres would be half of the skin's stress in bending, or less.
+//! The modal amplitudes give the displacements of the analysis nodes, these the displacement gradient at a point, and a constitutive law the
+//! stress. The law depends on the position: flaws lie on the surface, which is free of traction, and thin walls are in plane stress (`skin.rs`,
+//! `wall.rs`). In a plate with one layer of tetrahedra, the bending stress at their centres would be at most half of the surface stress.
 //!
-//! Strain is linear, as the modes are. With the quadratic terms a turn of 0.03 would count as a stretch of 5e-4, at which glass breaks.
+//! Strain is linear, like the modes. With the quadratic terms, a rotation by 0.03 would count as a strain of 5e-4, at which glass breaks.
 //!
-//! Three things make it fast, and change no bit:
-//! - Sixteen time steps are computed side by side. The code is written once for one step and for sixteen (`tensor.rs`); `pulp` picks the
+//! Three optimizations do not change any bit of the result:
+//! - Sixteen time steps are computed at once. The code is written once for one step and for sixteen (`tensor.rs`); `pulp` picks the
 //!   widest vectors of the processor at run time, and no operation is fused. (It does so for structs: a closure would be compiled for
 //!   the plain processor.)
-//! - Weak points have rows of their own (`rows.rs`). Where strain is linear, displacement, gradient, law and wall are one matrix, which has
-//!   three rows beside a free surface. The rows of a cluster are made when it is first looked at, and read from end to end.
-//! - Few of the points that have to be looked at come near their strength. So a few shapes in place of all modes (`coarse.rs`) come first, with
-//!   a bound of what they leave out, and only a point in doubt gets all its modes.
+//! - Weak points have precomputed rows (`rows.rs`). Since strain is linear, displacement, gradient, constitutive law and wall combine into one
+//!   matrix, which has three rows at a free surface. The rows of a cluster are computed on first use and read sequentially.
+//! - Few of the evaluated points come near their strength. A few shapes (`coarse.rs`) are therefore evaluated first in place of all modes, with a
+//!   bound of the remainder, and all modes only for points that this does not decide.
 //!
 //! The release beside a crack follows from its length (`shadow.rs`), by the closed forms of a crack in a stretched and in a bent wall.
 

@@ -25,11 +25,11 @@ pub(crate) struct RowPoint {
     pub(crate) place: Vec3,
     /// The wall that it is in.
     pub(crate) wall: Option<Wall>,
-    /// Other places where its flaw feels the stress: the rows are of the mean.
+    /// Further sample points of its flaw, over which the rows are averaged.
     pub(crate) samples: Vec<Sample>,
 }
 
-/// Another place where a flaw feels the stress.
+/// A further sample point of a flaw.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sample {
     pub(crate) point: EmbeddedPoint,
@@ -41,7 +41,7 @@ pub(crate) struct Sample {
 }
 
 impl RowPoint {
-    /// The places where its flaw feels the stress, each with its law; true for the point's own place.
+    /// Returns the sample points of its flaw with their constitutive laws; true for the weak point itself.
     pub(crate) fn places(&self) -> impl Iterator<Item = (&EmbeddedPoint, Law, bool)> {
         let samples = self.samples.iter().map(|s| (&s.point, s.law, false));
         std::iter::once((&self.point, self.law, true)).chain(samples)
