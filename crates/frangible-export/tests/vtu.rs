@@ -122,7 +122,10 @@ fn meshes_that_do_not_fit_together_are_refused_by_name() {
     };
     let (cell, ones) = ([0, 1, 2, 3], [1.0; 4]);
     assert!(refused(&holed, cell, &ones, 1.0).contains("node 2 lies at"));
-    assert!(refused(&sound, [0, 1, 2, 4], &ones, 1.0).contains("node 4, counted from 0, but there are only 4"));
+    assert!(
+        refused(&sound, [0, 1, 2, 4], &ones, 1.0)
+            .contains("node 4, counted from 0, but there are only 4")
+    );
     assert!(refused(&sound, cell, &[1.0; 3], 1.0).contains("`heat` has 3 values"));
     assert!(refused(&sound, cell, &[f32::INFINITY; 4], 1.0).contains("`heat`"));
     assert!(refused(&sound, cell, &ones, f64::NAN).contains("`beat`"));

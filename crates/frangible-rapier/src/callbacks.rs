@@ -1,7 +1,7 @@
-//! The caller's own hooks and event handler, beside ours.
+//! The caller's physics hooks and event handler, combined with those of this crate.
 //!
-//! A step that may be undone keeps its events back until it is known that it stands: an event of an undone step never happened. Hooks are
-//! asked in every step taken, so of one that is undone and taken again they are asked twice.
+//! Events of a step that may be undone are held back until the step is final; events of undone steps are discarded. Hooks are called in every
+//! step, including undone ones, so they may be called twice for the same step.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -22,7 +22,7 @@ pub(crate) struct Callbacks<'a> {
 }
 
 impl Callbacks<'_> {
-    /// The caller asks nothing and wants to hear nothing.
+    /// The caller has no hooks and no event handler.
     pub(crate) const NONE: Callbacks<'static> = Callbacks {
         hooks: &(),
         events: &(),

@@ -1,4 +1,4 @@
-//! Films and path-traced stills: drawn off-screen by the pictures' renderer, on a thread of its own.
+//! Films and path-traced stills, rendered off-screen on a separate thread.
 
 #[cfg(all(feature = "window", not(target_arch = "wasm32")))]
 mod shoot;

@@ -1,4 +1,4 @@
-//! Substitute for the disk and for threads on a page in a browser, which has neither.
+//! Substitute for file access and threads in a browser.
 
 use std::path::Path;
 use std::sync::mpsc::Sender;
@@ -8,7 +8,7 @@ use frangible_scenes::{BakedBody, Scene, SceneError};
 use crate::error::ViewError;
 use crate::jobs::Teller;
 
-/// Has scenes and files, brings baked bodies and takes files.
+/// Provides scenes, files and baked bodies, and stores written files.
 pub trait Host {
     /// The scene of this name.
     ///
@@ -32,25 +32,25 @@ pub trait Host {
     fn save(&self, name: &Path, bytes: &[u8]) -> Result<(), ViewError>;
 }
 
-/// Receives the bodies that were asked for.
+/// Receiver of the requested bodies.
 pub struct Delivery {
     pub(crate) teller: Teller,
     pub(crate) sender: Sender<Result<Vec<BakedBody>, SceneError>>,
 }
 
 impl Delivery {
-    /// Reports the current stage, and the share of it that is done.
+    /// Reports the current stage and its completed fraction.
     pub fn tell(&self, what: &str, share: f64) {
         self.teller.tell(what.into(), share);
     }
 
-    /// Returns true if nobody waits for it any more.
+    /// Returns true if the result is no longer needed.
     #[must_use]
     pub fn is_unwanted(&self) -> bool {
         self.teller.cancel.is_cancelled()
     }
 
-    /// Hands the bodies in, one per body of the scene, in their order.
+    /// Delivers the bodies, one per body of the scene, in the same order.
     pub fn finish(self, bodies: Result<Vec<BakedBody>, SceneError>) {
         // Nobody waits for a cancelled delivery.
         let _ = self.sender.send(bodies);

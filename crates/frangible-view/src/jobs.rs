@@ -1,4 +1,4 @@
-//! Work on other threads. Without threads, work that is put off until its progress was shown once.
+//! Background work on other threads; without threads, deferred until its progress has been displayed once.
 
 use std::cell::Cell;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError, channel};
@@ -43,7 +43,7 @@ pub(crate) struct Job<T> {
 /// Work to be done by whoever asks for its result.
 struct PutOff {
     work: Box<dyn FnOnce()>,
-    /// True once its result was asked for. The first answer is that it goes on, so that this can be shown.
+    /// True after the first request for the result, which is answered with “in progress”, so that the progress can be displayed.
     asked: bool,
 }
 

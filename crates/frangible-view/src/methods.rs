@@ -1,4 +1,4 @@
-//! The last impact by several methods, up to four of them side by side.
+//! Comparison of fracture methods on the last impact, up to four side by side.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -48,12 +48,12 @@ pub(crate) fn named_methods(word: &str) -> Result<Vec<Method>, String> {
     Ok(methods)
 }
 
-/// Outcome of one method for the impact.
+/// Outcome of the impact with one method.
 #[derive(Clone, Debug)]
 pub struct Outcome {
     /// Its numbers.
     pub numbers: OutcomeNumbers,
-    /// The pieces' shapes and where they lay in the body, m; empty where it held.
+    /// Shapes of the pieces and their positions in the body, m; empty if it did not break.
     shapes: Vec<(Vec3, RecordedMesh)>,
 }
 
@@ -79,7 +79,7 @@ impl Outcome {
     }
 }
 
-/// One impact by several methods.
+/// Outcomes of an impact with several methods.
 #[derive(Clone, Debug)]
 pub struct Methods {
     /// The impact.
@@ -96,14 +96,14 @@ pub struct Methods {
 struct Layout {
     /// Right and up directions in the picture.
     axes: [Vec3; 2],
-    /// Width and height of the body as it is seen, m.
+    /// Width and height of the body in the view, m.
     size: [f32; 2],
     columns: usize,
     rows: usize,
 }
 
 impl Methods {
-    /// The outcome of a method, if it was computed.
+    /// Returns the outcome of a method, if it has been computed.
     #[must_use]
     pub fn outcome(&self, method: Method) -> Option<&Arc<Outcome>> {
         self.outcomes

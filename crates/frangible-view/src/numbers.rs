@@ -170,9 +170,9 @@ impl From<&Compared> for ComparedNumbers {
 pub struct OutcomeNumbers {
     /// The method.
     pub method: Method,
-    /// Pieces, 1 where it held.
+    /// Number of pieces; 1 if the body did not break.
     pub pieces: usize,
-    /// The largest piece's share of the volume.
+    /// Volume fraction of the largest piece.
     pub largest_share: f64,
     /// Area of its cracks, one side, m².
     pub crack_area: f64,

@@ -1,5 +1,5 @@
-//! A session that runs beside its window, so that neither a step nor a break nor a bake makes anybody wait: on a thread of its own, or without
-//! threads in another program, which sends its state as bytes. That program runs its session on the only thread it has.
+//! A session that runs independently of its window, so that steps, breaks and bakes do not block the window: on a separate thread, or without
+//! threads in another program, which sends its state as bytes and runs its session on its only thread.
 
 mod here;
 mod there;
@@ -20,7 +20,7 @@ use thread::OnThread;
 
 pub use there::Remote;
 
-/// A session that runs beside its window.
+/// A session that runs independently of its window.
 pub struct Worker {
     // A program that starts only sessions of one place has the code of that place only: the window of a page has no physics.
     place: Box<dyn Place>,
@@ -45,21 +45,21 @@ trait Place {
 }
 
 impl Worker {
-    /// Starts a session on a thread; with `by_clock` its scenes run in real time, else only by [`Command::Step`]. Their sound goes to the outlet, if
-    /// there is one.
+    /// Starts a session on a thread. With `by_clock` its scenes run in real time, otherwise only by [`Command::Step`]. Sound is output to `outlet`,
+    /// if given.
     #[must_use]
     pub fn start(by_clock: bool, outlet: Option<Outlet>) -> Self {
         Self::at(OnThread::start(by_clock, outlet))
     }
 
-    /// A session that runs in another program; [`Worker::advance`] takes in its news.
+    /// Connects to a session in another program; [`Worker::advance`] receives its state.
     #[must_use]
     pub fn start_there(remote: Box<dyn Remote>) -> Self {
         Self::at(There::start(remote))
     }
 
-    /// Starts a session on this thread, which has to call [`Worker::advance`] again and again. A break, an analysis and a
-    /// second impact make it wait.
+    /// Starts a session on this thread, which must call [`Worker::advance`] regularly. Breaks, analyses and repeated impacts block the
+    /// thread.
     #[must_use]
     pub fn start_here(by_clock: bool, host: Box<dyn Host>, outlet: Option<Outlet>) -> Self {
         Self::at(Here::start(by_clock, host, outlet))
@@ -72,31 +72,31 @@ impl Worker {
         }
     }
 
-    /// Lets a session of this thread go on for some milliseconds, or takes in the news of one in another program; one that has a thread needs no
-    /// help.
+    /// Advances a session on this thread for some milliseconds, or receives the state of one in another program. Not needed for a session with its
+    /// own thread.
     pub fn advance(&mut self) {
         self.place.advance();
     }
 
-    /// Gives a command; it is carried out after those given before. False if the session's thread is gone.
+    /// Queues a command. Returns false if the session's thread has ended.
     pub fn send(&mut self, command: Command) -> bool {
         self.sent += 1;
         self.place.send(command)
     }
 
-    /// Latest state of the session, as of a few milliseconds ago.
+    /// Returns the latest state of the session, at most a few milliseconds old.
     #[must_use]
     pub fn latest(&self) -> Arc<Shown> {
         self.place.latest()
     }
 
-    /// Returns true if the state shows all commands given so far as done, with all they began.
+    /// Returns true if, in this state, all commands sent so far and their background jobs are complete.
     #[must_use]
     pub fn is_done(&self, shown: &Shown) -> bool {
         shown.commands == self.sent && !shown.busy
     }
 
-    /// Returns true if the session ended by itself, which it does not unless something is wrong.
+    /// Returns true if the session ended unexpectedly.
     #[must_use]
     pub fn is_dead(&self) -> bool {
         self.place.is_dead()

@@ -99,7 +99,7 @@ impl Vibration {
     /// Begins an impact: everything of [`impact()`](crate::impact()) before the motion of the modes.
     ///
     /// # Errors
-    /// What [`impact()`](crate::impact()) refuses.
+    /// The errors of [`impact()`](crate::impact()).
     pub fn begin(
         body: &Body,
         contacts: &[Contact],

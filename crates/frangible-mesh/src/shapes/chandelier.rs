@@ -9,7 +9,7 @@ use glam::DVec3;
 /// Arms.
 const ARMS: u32 = 12;
 
-/// Where an arm meets its pan: how far from the axis and how high, mm.
+/// Distance from the axis and height of the joint between an arm and its pan, mm.
 const END: (f64, f64) = (150.0, 134.0);
 
 /// Twelve arms in a ring about a turned shaft, each with a drip pan and a candle cup: 340 mm across, 230 mm tall, the

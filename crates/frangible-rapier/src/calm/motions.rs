@@ -1,4 +1,4 @@
-//! Motions of bodies before the step, by which a blow is told from a touch without a copy of the world.
+//! Motions of bodies before the step, which distinguish impacts from resting contacts without a copy of the world.
 
 use std::collections::BTreeMap;
 

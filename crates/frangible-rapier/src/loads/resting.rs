@@ -1,15 +1,15 @@
-//! Loads of bodies that lie on each other: resting contacts, asked at every step `[G12 §7.3.3]`.
+//! Fracture under resting contacts, tested at every step `[G12 §7.3.3]`.
 //!
-//! After a step each breakable body that is awake, or held, is put to [`frangible::internals::rest()`] with the forces of its
-//! resting contacts: impulse / time step, friction included. Contacts that approach faster than the impact speed are not
-//! among them. A single step's impulses are noisy (a thing put down at 0.1 m/s presses for one step of 1/240 s with three
-//! times its weight), so a load counts as the smallest of the last [`STEADY`] steps: a body breaks only when each of
-//! them would have broken it. The last of these steps begins with a copy of the world and is taken again with fragments,
-//! as after an impact. If steps are shorter than [`INTERVAL`], only one in each interval is looked at.
+//! After a step, each breakable body that is awake or supported is passed to [`frangible::internals::rest()`] with the forces of its
+//! resting contacts: impulse divided by time step, including friction. Contacts that approach faster than the impact speed are
+//! excluded. The impulses of a single step are noisy (an object put down at 0.1 m/s presses for one step of 1/240 s with three
+//! times its weight), so the load is the smallest of the last [`STEADY`] steps: a body breaks only if each of them would have broken it.
+//! The last of these steps starts with a copy of the world and is repeated with fragments, as after an impact. If steps are shorter than
+//! [`INTERVAL`], only one step per interval is tested.
 //!
-//! A push that parts an overlap is no load: the engine pushes as hard as its iterations make it, and between things that cannot give way
-//! harder from step to step. Things that lie on each other overlap by next to nothing, so that a body that is pushed at a place deeper
-//! than [`OVERLAP`] is taken to carry nothing until the two have parted.
+//! The force that separates overlapping bodies is not a load: it depends on the engine's iterations, and between immovable bodies it grows from
+//! step to step. Resting bodies hardly overlap, so a body with a contact deeper than [`OVERLAP`] is treated as unloaded until the overlap is
+//! resolved.
 
 use std::collections::BTreeMap;
 
@@ -76,11 +76,11 @@ impl Load {
 pub(crate) struct Burden {
     load: Load,
     margin: f64,
-    /// Steps in a row that would have broken or cracked it.
+    /// Number of consecutive steps that would have broken or cracked the body.
     over: u32,
-    /// Looks until it is asked again.
+    /// Number of checks until the next evaluation.
     pause: u32,
-    /// Looks in a row at which the quick bound did not clear it: only a load that lasts is looked at closer.
+    /// Number of consecutive checks in which the quick bound was not sufficient; only a lasting load is analysed further.
     hard: u32,
 }
 

@@ -1,7 +1,7 @@
-//! Impacts and loads put to the fracture, several at once.
+//! Evaluation of impacts and loads by the fracture model, in parallel.
 //!
-//! Each body is a question of its own, so they are shared out among threads; the answers come back in the order of the
-//! questions, and no answer hangs on another: any number of threads gives the same bits.
+//! Bodies are independent, so they are distributed among threads; results are returned in the order of the input and are
+//! bit-identical for any number of threads.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -1,9 +1,9 @@
 //! Steps in which bodies break.
 //!
-//! An engine decides in a step how two bodies part, and takes both for unbreakable. Whether one of them broke is known only after it, from
-//! the impulses it found. There are two ways out. A break *inside* the step undoes it and takes it again with fragments in the body's
-//! place, which is right in every detail and costs a copy of the world. A break *after* the step leaves it as it is and exchanges the body
-//! then, which needs no copy and can wait for its turn.
+//! A physics engine resolves contacts as if both bodies were unbreakable, and the impulses that determine whether one of them breaks are known
+//! only after the step. There are two solutions. A break *inside* the step undoes the step and repeats it with fragments in place of the
+//! body, which is accurate in every detail but requires a copy of the world. A break *after* the step keeps the step and replaces the body
+//! then, which needs no copy and can be postponed.
 //!
 //! - `step.rs`: the front door, and the work around either way;
 //! - `inside`, `after`: the two ways;

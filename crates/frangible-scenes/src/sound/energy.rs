@@ -1,4 +1,4 @@
-//! Energy that a run lost, and the part of it that became sound.
+//! Energy lost in a run, and the part of it radiated as sound.
 
 use std::f64::consts::PI;
 
@@ -17,11 +17,11 @@ const AWAY: f64 = 5.0;
 /// Gravity, m/s².
 const GRAVITY: f64 = 9.81;
 
-/// Energy that leaves a run as sound of these sources, J: the flow through a sphere about it, found at points all over the sphere. There
-/// is no floor, so that pushes into it are left out, and nothing is reflected.
+/// Returns the sound energy radiated by the selected sources, J, integrated over a sphere around the scene. The floor is omitted: there is no
+/// sound from forces on it and no reflection.
 ///
 /// # Errors
-/// A number of the recording that cannot be used.
+/// A value of the recording is invalid.
 pub fn energy_radiated(run: &Run, scene: &Scene, sources: Sources) -> Result<f64, SoundError> {
     let centre = run.recording.camera.target.as_dvec3();
     let mut flow = 0.0;
@@ -45,7 +45,7 @@ pub fn energy_radiated(run: &Run, scene: &Scene, sources: Sources) -> Result<f64
     Ok(flow / f64::from(MICROPHONES) * area / (AIR_DENSITY * SPEED_OF_SOUND))
 }
 
-/// Energy that a run lost from its first frame to its last, J: of motion, without turning, and of height.
+/// Returns the loss of translational kinetic energy and potential energy from the first to the last frame of a run, J.
 #[must_use]
 pub fn energy_lost(run: &Run) -> f64 {
     energy(run, 0) - energy(run, run.recording.frame_count.saturating_sub(1))

@@ -1,4 +1,4 @@
-//! The sound of a scene on the move, as it comes.
+//! The sound of a running scene, step by step.
 
 use std::collections::BTreeMap;
 
@@ -15,13 +15,13 @@ use crate::live::{LiveScene, Thing, ThingKind};
 use crate::scene::Scene;
 use crate::touching::WorldTouching;
 
-/// Hears a scene step by step: pressures, Pa, in simulated time. The same steps give the same samples.
+/// Computes the sound of a running scene step by step: pressures, Pa, in simulated time. The same steps give the same samples.
 pub struct LiveSound {
     hearing: Hearing,
     touching: WorldTouching,
-    /// Present or last pose of each thing.
+    /// Current or last pose of each object.
     poses: Vec<Pose>,
-    /// The thing of each rigid body.
+    /// Object number of each rigid body.
     numbers: BTreeMap<(u32, u32), usize>,
 }
 
@@ -73,10 +73,11 @@ impl Cast for Moving<'_> {
 }
 
 impl LiveSound {
-    /// Ears where a camera is, in a scene that has been set up; whole bodies are made ready to sound here, lest their first blow waits.
+    /// Creates a listener at the camera in a scene that has been set up, and prepares the sound of whole bodies, so that their first blow causes
+    /// no delay.
     ///
     /// # Errors
-    /// A number of the scene or of the camera that cannot be used.
+    /// A value of the scene or of the camera is invalid.
     pub fn new(live: &LiveScene, scene: &Scene, camera: &View) -> Result<Self, SoundError> {
         let config = config_at(camera, scene).live();
         let mut sound = Self {
@@ -108,11 +109,11 @@ impl LiveSound {
         self.hearing.synth().report()
     }
 
-    /// Takes in the step that was just taken, and adds the sound up to its end to `out`: pressures, Pa, left and right in turn. The last
-    /// [`BLOCK`](frangible_sound::BLOCK) samples come with the next step, so that events of that step begin on their samples.
+    /// Processes the last step and appends the sound up to its end to `out`: pressures, Pa, left and right interleaved. The last
+    /// [`BLOCK`](frangible_sound::BLOCK) samples follow with the next step, so that events of that step start at their exact samples.
     ///
     /// # Errors
-    /// A number of an event that cannot be used; the rest is heard.
+    /// A value of an event is invalid; the sound of the other events is added.
     pub fn step(&mut self, live: &LiveScene, out: &mut Vec<f32>) -> Result<(), SoundError> {
         self.find_poses(live);
         let happened = self.hear(live);

@@ -1,4 +1,4 @@
-//! A run that is over, to be heard.
+//! A finished run as the input of sound synthesis.
 
 use frangible::glam::Vec3;
 use frangible_recording::{Pose, RecordedMesh};

@@ -1,21 +1,20 @@
-//! Results that are computed elsewhere: bakes, analyses, impacts taken again, comparisons and films.
+//! Results of background jobs: bakes, analyses, repeated impacts, comparisons and films.
 //!
-//! A command that takes long begins a job on another thread and returns. The session's owner asks from time to time for results, or waits for all of
-//! them.
+//! A long-running command starts a job on another thread and returns. The owner of the session polls for results, or waits for all of them.
 
 use std::time::Duration;
 
 use super::Session;
 
 impl Session {
-    /// Collects results that were computed elsewhere; true if there were any.
+    /// Collects the results of background jobs. Returns true if there were any.
     pub fn poll(&mut self) -> bool {
         let any = self.poll_all(None);
         self.stale |= any;
         any
     }
 
-    /// Waits until nothing goes on elsewhere.
+    /// Waits for all background jobs.
     pub fn finish_jobs(&mut self) {
         let wait = Some(Duration::from_millis(200));
         while self.has_jobs() {
@@ -37,7 +36,7 @@ impl Session {
             || self.methods_job.is_some()
     }
 
-    /// Returns true while a command's work goes on.
+    /// Returns true while a background job runs.
     #[must_use]
     pub fn is_busy(&self) -> bool {
         self.owes() || self.has_jobs()

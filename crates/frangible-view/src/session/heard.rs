@@ -1,4 +1,4 @@
-//! Sound of the scene, on its way to whoever listens.
+//! Output of the scene's sound.
 
 use frangible_scenes::LiveSound;
 use frangible_sound::{Limiter, Outlet};
@@ -22,7 +22,7 @@ pub(super) struct Heard {
 }
 
 impl Session {
-    /// Makes the scene heard from now on: each step adds its sound to the outlet, as fast as the clock.
+    /// Starts sound output: each step adds its sound to the outlet, at the speed of the session's clock.
     pub fn listen(&mut self, outlet: Outlet) {
         self.heard = Some(Heard {
             outlet,

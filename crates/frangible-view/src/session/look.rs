@@ -1,4 +1,4 @@
-//! State of a session as a window shows it: the subject, its marks, and all numbers of the panels.
+//! State of a session for display: the subject, its marks, and all numbers of the panels.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -89,7 +89,7 @@ impl Session {
         self.selection = met.and_then(|met| met.thing);
     }
 
-    /// Returns the current state, as a window shows it.
+    /// Returns the current state for display.
     #[must_use]
     pub fn shown(&mut self) -> Shown {
         let began = self.stale.then(thread_time);

@@ -1,4 +1,4 @@
-//! The last impact by other methods.
+//! Comparison of the last impact with other methods.
 
 use std::sync::Arc;
 use std::time::Duration;

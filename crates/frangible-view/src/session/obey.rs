@@ -1,4 +1,4 @@
-//! Commands, carried out, and written down for a script that does the same again.
+//! Execution of commands, and their recording as a script that reproduces the session.
 
 use frangible_recording::View;
 use frangible_scenes::scene;
@@ -15,11 +15,11 @@ const SLOW_MOTION: [f64; 2] = [1e-4, 4.0];
 const FRAME_RATE: f64 = 60.0;
 
 impl Session {
-    /// Carries a command out, or begins to: bakes, analyses and second impacts go on elsewhere until
-    /// [`Session::poll`] or [`Session::finish_jobs`] collects them; steps that [`Command::Step`] asks for are taken here.
+    /// Executes a command. Bakes, analyses and repeated impacts run in the background until [`Session::poll`] or
+    /// [`Session::finish_jobs`] collects them; the steps of [`Command::Step`] are taken immediately.
     ///
     /// # Errors
-    /// A command that cannot be carried out; nothing was done then.
+    /// The command cannot be executed; the session is unchanged.
     pub fn apply(&mut self, command: Command) -> Result<(), ViewError> {
         self.begin(command)?;
         while self.owes() {

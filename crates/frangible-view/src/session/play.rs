@@ -1,4 +1,4 @@
-//! Steps, throws, breaks and their undoing.
+//! Steps, throws, breaks and undo.
 
 use std::sync::Arc;
 
@@ -32,7 +32,7 @@ impl Session {
     /// Takes one step.
     ///
     /// # Errors
-    /// A break that the fracture model refused; the scene may go on.
+    /// The fracture model rejected an impact; the scene can continue.
     pub fn step(&mut self) -> Result<(), ViewError> {
         self.put_aside();
         self.pull_along();

@@ -1,4 +1,4 @@
-//! Scenes: loaded, baked, set up.
+//! Loading, baking and set-up of scenes.
 
 use std::time::Duration;
 

@@ -1,4 +1,4 @@
-//! Answers of a session: its contents and its state.
+//! Accessors for the contents and state of a session.
 
 use std::sync::Arc;
 
@@ -12,43 +12,43 @@ use crate::command::{Command, Mark, Subject};
 use crate::methods::Methods;
 
 impl Session {
-    /// Returns true if the clock should run: there is a scene, and nobody stopped it.
+    /// Returns true if there is a scene and the simulation is not paused.
     #[must_use]
     pub fn is_running(&self) -> bool {
         self.live.is_some() && !self.paused
     }
 
-    /// Simulated seconds per second.
+    /// Returns the simulated seconds per second of real time.
     #[must_use]
     pub fn slow_motion(&self) -> f64 {
         self.slow_motion
     }
 
-    /// Simulated time, s.
+    /// Returns the simulated time, s.
     #[must_use]
     pub fn time(&self) -> f64 {
         self.live.as_ref().map_or(0.0, LiveScene::time)
     }
 
-    /// The scene on the move.
+    /// Returns the running scene.
     #[must_use]
     pub fn live(&self) -> Option<&LiveScene> {
         self.live.as_ref()
     }
 
-    /// The last contact that mattered: the last break, or the hardest that something withstood.
+    /// Returns the last significant contact: the last break, or the hardest impact that a body withstood.
     #[must_use]
     pub fn blow(&self) -> Option<&Arc<Blow>> {
         self.blow.as_ref()
     }
 
-    /// The last impact by several methods, once that was asked for.
+    /// Returns the comparison of methods for the last impact, once requested.
     #[must_use]
     pub fn methods(&self) -> Option<&Arc<Methods>> {
         self.methods.as_ref()
     }
 
-    /// Commands since the scene was loaded: a script that does the same again.
+    /// Returns the commands since the scene was loaded, a script that reproduces the session.
     #[must_use]
     pub fn log(&self) -> &[Command] {
         &self.log
@@ -62,7 +62,7 @@ impl Session {
         self.subject
     }
 
-    /// Course of the last contact, moment by moment, once that was asked for.
+    /// Returns the time series of the last contact, once requested.
     #[must_use]
     pub fn analysis(&self) -> Option<&Arc<Analysis>> {
         self.analysis.as_ref()

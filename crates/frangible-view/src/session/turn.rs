@@ -1,4 +1,4 @@
-//! Knobs, and the last impact again with the knobs as they are.
+//! Knobs, and the repetition of the last impact with their current values.
 
 use std::sync::Arc;
 use std::time::Duration;

@@ -1,5 +1,4 @@
-//! The floor's shadow, computed on a thread of its own, or a little for each frame: roughly while things move, finely when they
-//! rest.
+//! The shadow on the floor, computed on a separate thread or incrementally per frame: coarse while objects move, fine at rest.
 
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};

@@ -1,4 +1,4 @@
-//! The loudspeaker of a desktop: PulseAudio's protocol on Linux, which PipeWire speaks too, and the system's own elsewhere.
+//! Audio output on desktops: the PulseAudio protocol on Linux, which PipeWire also supports, and the native API elsewhere.
 
 use frangible_sound::Outlet;
 

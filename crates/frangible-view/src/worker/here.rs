@@ -1,4 +1,4 @@
-//! A session on the thread of its owner.
+//! A session on the owner's thread.
 
 use std::collections::VecDeque;
 use std::sync::Arc;

@@ -7,7 +7,7 @@ use crate::command::Command;
 use crate::shown::Shown;
 use crate::wire::Unpacker;
 
-/// A program in which a session runs, without any memory in common.
+/// A program that runs a session, without shared memory.
 pub trait Remote {
     /// Gives it a command.
     fn give(&mut self, line: String);
@@ -20,7 +20,7 @@ pub(super) struct There {
     remote: Box<dyn Remote>,
     unpacker: Unpacker,
     latest: Arc<Shown>,
-    /// True if it sent bytes that cannot be read.
+    /// True if it sent bytes that cannot be decoded.
     broken: bool,
 }
 

@@ -1,4 +1,4 @@
-//! A session on a thread of its own.
+//! A session on its own thread.
 
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};

@@ -1,4 +1,4 @@
-//! A session and the clock that drives it, whatever thread they are on.
+//! A session and the clock that drives it, on any thread.
 
 use std::sync::Arc;
 use std::time::Duration;

@@ -1,7 +1,8 @@
-//! Bodies that were hit in the step just taken, found without a copy of the world.
+//! Detection of bodies that were hit in the last step, without a copy of the world.
 //!
-//! Before the step only poses and velocities of the bodies were noted (`motions.rs`). They tell which pairs in contact may have met
-//! fast enough; only of the breakable ones among these, and of the bodies that touch them, the state before the step is put together.
+//! Only the poses and velocities of bodies are stored before the step (`motions.rs`). They determine which contact pairs may have
+//! collided fast enough; the state before the step is reconstructed only for the breakable bodies among these and for the bodies that touch
+//! them.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -1,7 +1,7 @@
-//! The line of blows that wait to be put to the fracture.
+//! Queue of impacts that wait for evaluation by the fracture model.
 //!
-//! A heap of crockery that falls over is hit in a hundred places within one frame. Who was hit first comes first, and a step takes on as
-//! much work as its budget allows, but at least one body. Blows that a quick bound refuses cost nothing and pass those that wait.
+//! A collapsing heap of crockery is hit in a hundred places within a frame. Bodies are processed in the order of their impacts, as many per
+//! step as the budget allows, but at least one. Impacts that a quick bound rejects cost nothing and bypass the queue.
 
 use std::collections::{BTreeSet, VecDeque};
 
@@ -35,7 +35,7 @@ pub(super) struct Turn {
 }
 
 impl BreakableWorld {
-    /// Bodies that were hit and wait for their turn, the first in line first: see
+    /// Returns the bodies whose impacts wait for evaluation, in the order of the queue: see
     /// [`Breaking::AfterStep`](crate::Breaking::AfterStep).
     pub fn waiting(&self) -> impl Iterator<Item = RigidBodyHandle> {
         let judged = self.cases.iter().map(|case| case.body);

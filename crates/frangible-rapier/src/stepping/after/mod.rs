@@ -1,14 +1,13 @@
 //! Breaks after the step, within a budget: for scenes of hundreds of bodies.
 //!
-//! The step stands. A whole body takes its blow, and gives way to its fragments when its turn comes, at the motion it has
-//! then: momentum, angular momentum and energy are those of the whole body, and the cracks' energy is taken from the
-//! motion as ever. Work is counted in tetrahedra, not in time, so that the same bodies break in the same step on any machine.
+//! The step is kept. The whole body takes the impact, and its fragments replace it later, with the motion that it has then: momentum, angular
+//! momentum and energy are those of the whole body, and the energy of the cracks is taken from the motion as usual. Work is counted in
+//! tetrahedra, not in time, so that the same bodies break in the same step on any machine.
 //!
-//! A blow passes three places: it is found (`hit.rs`), waits in line for its turn (`line.rs`), and is put to the fracture, whose verdict is
-//! carried out (`serve.rs`, `obey.rs`). Where the body has got other cracks before the verdict comes, the blow is put to the fracture once
-//! more. What a body carries does not wait.
+//! An impact is detected (`hit.rs`), waits in the queue (`line.rs`), and is evaluated by the fracture model, whose result is then applied
+//! (`serve.rs`, `obey.rs`). If the body has new cracks by then, the impact is evaluated again. Resting loads do not wait.
 //!
-//! A heap costs what its colliders have parts, so the cell shares of a piece are merged to 12 of at most 48 points each.
+//! The cost of a heap grows with the number of collider parts, so the parts of a piece are merged into at most 12 with at most 48 points each.
 
 mod hit;
 pub(crate) mod line;

@@ -1,7 +1,8 @@
-//! A verdict after the step is carried out: the body gives way to its fragments where it is by now.
+//! Application of a result after the step: fragments replace the body at its current pose.
 //!
-//! The fragments begin with the motion of the whole body, which has taken the engine's blow already. Where the blow is of this very step,
-//! that is taken back and the blow's own impulse acts; then the cracks are paid from the motion, from what the blow lost first.
+//! The fragments start with the motion of the whole body, which includes the engine's impulse. If the impact is of the same step, the engine's
+//! impulse is reverted and the impulse of the fracture model applied; then the energy of the cracks is taken, first from the energy lost in
+//! the impact, then from the motion.
 
 use rapier3d::dynamics::RigidBodyHandle;
 

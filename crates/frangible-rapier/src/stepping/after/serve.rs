@@ -1,7 +1,7 @@
-//! Blows whose turn it is are put to the fracture: at once, or elsewhere while the world goes on.
+//! Evaluation of queued impacts by the fracture model, immediately or in the background.
 //!
-//! If the verdict comes in the step of the blow, the blow's impulse takes the place of the engine's (`exchange.rs`). A body that waited,
-//! or was judged elsewhere, keeps what the engine gave it, since by then the bodies are elsewhere.
+//! If the result is available in the step of the impact, the impulse of the fracture model replaces that of the engine (`exchange.rs`). After a
+//! delay, the engine's impulse is kept, since the bodies have moved on.
 
 use std::collections::{BTreeMap, BTreeSet};
 

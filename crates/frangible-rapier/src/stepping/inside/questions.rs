@@ -1,8 +1,8 @@
-//! Questions to the fracture in a step that may yet be undone.
+//! Impacts and loads to be evaluated by the fracture model in a step that may still be undone.
 //!
-//! A step is taken up to five times, and each time the bodies in it are hit anew. A blow that comes again exactly as it was is not put to
-//! the fracture again: it is known to hold. What a body carries is asked only where no new blow is, and only of bodies that were close
-//! to breaking under it for some steps (`resting.rs`).
+//! A step is taken up to five times, each time with new impacts. An impact that recurs unchanged is not evaluated again, since the body is
+//! known to hold. Resting loads are evaluated only for bodies without a new impact that have been close to breaking for some steps
+//! (`resting.rs`).
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -30,11 +30,11 @@ pub(super) struct Asked {
 /// Questions to ask after a step.
 #[derive(Default)]
 struct Questions {
-    /// Blows to be put to the fracture.
+    /// Impacts to be evaluated by the fracture model.
     blows: Vec<(RigidBodyHandle, Impact)>,
-    /// Answers about overloaded bodies.
+    /// Results for overloaded bodies.
     loads: Vec<Answer>,
-    /// Bodies whose blow is known to hold.
+    /// Bodies that are known to withstand their impact.
     known: Vec<RigidBodyHandle>,
 }
 
