@@ -106,7 +106,7 @@ pub(crate) fn chandelier() -> Result<Scene, SceneError> {
     };
     Ok(dropped(
         chandelier,
-        "a glass chandelier of twelve arms that falls on the ends of its arms",
+        "a glass chandelier of twelve arms dropped on the ends of its arms",
         0.5,
     ))
 }
