@@ -7,6 +7,7 @@ use glam::{DVec3, Vec3};
 use crate::fragment::Breakup;
 use crate::state::BodyState;
 
+pub use crate::blow::BlowEnergy;
 pub use crate::contact::ContactReport;
 pub use crate::fragment::Fragment;
 
@@ -148,24 +149,6 @@ pub struct ImpactReport {
     pub blow_energy: BlowEnergy,
     /// Wall-clock time of each stage.
     pub timings: StageTimings,
-}
-
-/// Energy balance of a blow, J: the work less `damped`, `faces` and `released` is `kept`.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[non_exhaustive]
-pub struct BlowEnergy {
-    /// Work of the contacts on the vibration of the body and on its pieces, friction included.
-    pub work: f64,
-    /// Energy dissipated by damping until the contacts part.
-    pub damped: f64,
-    /// Energy dissipated where crack faces close and press on each other, until the contacts part.
-    pub faces: f64,
-    /// Motion of pieces that become too small to move on their own, until the contacts part.
-    pub released: f64,
-    /// Energy of the vibration and of the pieces when the contacts part.
-    pub kept: f64,
-    /// Kinetic energy of the separated pieces relative to the rigid motion of the whole body, at the end.
-    pub pieces: f64,
 }
 
 /// Wall-clock times of the stages of an impact, s. The only non-deterministic output.

@@ -1,8 +1,25 @@
 //! Accounts of a blow: the work that its contacts do on the body, and what becomes of it.
 
-use super::bank::BankState;
+use super::bank::{BankState, dot};
 use super::flight::{Flight, Setup};
-use crate::outcome::BlowEnergy;
+
+/// Energy balance of a blow, J: the work less `damped`, `faces` and `released` is `kept`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct BlowEnergy {
+    /// Work of the contacts on the vibration of the body and on its pieces, friction included.
+    pub work: f64,
+    /// Energy dissipated by damping until the contacts part.
+    pub damped: f64,
+    /// Energy dissipated where crack faces close and press on each other, until the contacts part.
+    pub faces: f64,
+    /// Motion of pieces that become too small to move on their own, until the contacts part.
+    pub released: f64,
+    /// Energy of the vibration and of the pieces when the contacts part.
+    pub kept: f64,
+    /// Kinetic energy of the separated pieces relative to the rigid motion of the whole body, at the end.
+    pub pieces: f64,
+}
 
 /// Accounts of the contacts so far.
 #[derive(Clone, Debug, Default)]
@@ -10,6 +27,8 @@ pub(super) struct Accounts {
     /// Displacement of the body at each contact, along its push, m, and force, N, when the work was last summed.
     ways: Vec<f64>,
     forces: Vec<f64>,
+    /// The displacements before the last sum, m.
+    before: Vec<f64>,
     /// q' at the last time step, m·√kg.
     elastic: Vec<f64>,
     /// Work of the contacts on the vibration and the pieces, J.
@@ -24,22 +43,24 @@ pub(super) struct Accounts {
 
 impl Accounts {
     /// Adds the work of the contacts, whose forces, N, have changed linearly since it was last added.
+    #[inline(always)]
     pub(super) fn add_work(
         &mut self,
         setup: Setup<'_>,
         body: (&BankState, &Flight),
         forces: &[f64],
     ) {
-        let (before, at) = (std::mem::take(&mut self.ways), self.forces.len());
-        self.forces.resize(forces.len(), 0.0);
+        self.before.clone_from(&self.ways);
         self.rebase(setup, body, forces);
-        for k in 0..at {
-            self.work += 0.5 * (forces[k] + self.forces[k]) * (self.ways[k] - before[k]);
-        }
-        self.forces.copy_from_slice(forces);
+        let sums = self.forces.iter().zip(forces).map(|(a, b)| 0.5 * (a + b));
+        let moved = self.ways.iter().zip(&self.before).map(|(a, b)| a - b);
+        self.work += sums.zip(moved).map(|(f, d)| f * d).sum::<f64>();
+        self.forces.clear();
+        self.forces.extend_from_slice(forces);
     }
 
     /// Takes the displacements of the body at the contacts anew: one that goes on to another piece has done no work by that.
+    #[inline(always)]
     pub(super) fn rebase(
         &mut self,
         setup: Setup<'_>,
@@ -47,16 +68,13 @@ impl Accounts {
         forces: &[f64],
     ) {
         let plan = setup.plan;
-        let oscillators = plan.oscillators[..plan.own].iter().zip(&state.x);
         let rows = plan.own_compliance.chunks_exact(forces.len().max(1));
-        let ways = plan.drive.iter().zip(rows).enumerate();
-        let ways = ways.map(|(k, (drive, row))| {
-            let swing = oscillators.clone().zip(drive);
-            let swing = swing.map(|(((w, _), x), xi)| xi * x / w).sum::<f64>();
+        self.ways.clear();
+        for (k, (way, row)) in plan.ways.iter().zip(rows).enumerate() {
             let rest = row.iter().zip(forces).map(|(c, f)| c * f).sum::<f64>();
-            swing + rest + flight.way(setup, k)
-        });
-        self.ways = ways.collect();
+            let swing = dot(way, &state.x);
+            self.ways.push(swing + rest + flight.way(setup, k));
+        }
     }
 
     /// Adds the losses of a time step. `elastic`: q' at its end, m·√kg; `energies`: energy of the body then, and strain energy in it, J.

@@ -67,6 +67,7 @@ mod star;
 mod wall;
 
 pub use crate::contact::Receptance;
+pub use accounts::BlowEnergy;
 pub(crate) use apart::Apart;
 pub use course::Blow;
 pub(crate) use groups::Groups;

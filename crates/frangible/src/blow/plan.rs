@@ -57,6 +57,8 @@ pub(super) struct Plan {
     pub(super) periods: Vec<f64>,
     /// Push of each contact on each oscillator, 1/√kg.
     pub(super) drive: Vec<Vec<f64>>,
+    /// Displacement of the body along each contact's push per ω q of each of its own oscillators, s/√kg.
+    pub(super) ways: Vec<Vec<f64>>,
     /// Reduction of each contact's gap per ω q of each oscillator, s/√kg.
     pub(super) gap: Vec<Vec<f64>>,
     /// Oscillators driven by each contact.
@@ -146,6 +148,7 @@ impl Plan {
             coarse: Bank::default(),
             coarser: (pulse.longest_step / time_step).max(1.0),
             drive: vec![vec![0.0; width]; count],
+            ways: Vec::new(),
             gap: vec![vec![0.0; width]; count],
             pushed: Vec::new(),
             felt: Vec::new(),
@@ -155,6 +158,13 @@ impl Plan {
         };
         plan.couple_body(&felt);
         plan.add_strikers();
+        let way = |drive: &Vec<f64>| {
+            let own = drive[..padded(plan.own)].iter().zip(&plan.oscillators);
+            let mut way: Vec<f64> = own.map(|(xi, (w, _))| xi / w).collect();
+            way.resize(padded(plan.own), 0.0);
+            way
+        };
+        plan.ways = plan.drive.iter().map(way).collect();
         let spans_of = |rows: &[Vec<f64>]| rows.iter().map(|row| spans(row)).collect();
         plan.pushed = spans_of(&plan.drive);
         plan.felt = spans_of(&plan.gap);

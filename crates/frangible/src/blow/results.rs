@@ -2,9 +2,8 @@
 
 use std::f64::consts::PI;
 
-use super::Blow;
+use super::{Blow, BlowEnergy};
 use crate::contact::{ContactReport, Pulse};
-use crate::outcome::BlowEnergy;
 
 impl Blow {
     /// Modal impulses of the contacts, N·s/√kg, as prescribed impulses have them.
