@@ -419,6 +419,6 @@ fn what_a_dropped_plate_has_lost_comes_to_rest() {
     println!("pieces, and the last cut, s: {broken:?}");
     // If the whole plate's modes go on in all pieces, there are 233 to 313 pieces. The rest of the plate rings on, and cracks late.
     for (pieces, last) in broken {
-        assert!(pieces < 150 && last < 3e-3, "{pieces} pieces, {last} s");
+        assert!(pieces < 150 && last < 4e-3, "{pieces} pieces, {last} s");
     }
 }
