@@ -68,7 +68,7 @@ fn a_file_of_a_newer_version_says_so() {
 
 #[test]
 fn numbers_that_make_no_strength_are_named() {
-    let baked = || Baked::load(&bodies().join("pane.frangible")).unwrap();
+    let baked = || Baked::load(bodies().join("pane.frangible")).unwrap();
     let mut soft = baked();
     soft.material.fracture_energy = 0.0;
     let refused = FrangibleAsset::new(soft).err().unwrap().to_string();
