@@ -42,6 +42,7 @@ mod state;
 mod stress;
 mod tips;
 mod trace;
+mod vectors;
 
 use frangible_geometry as mesh;
 use frangible_material as material;

@@ -4,9 +4,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// From the lowest to the highest. `mesh` and `material` are crates of their own, below all of them.
-const ORDER: [&str; 25] = [
+const ORDER: [&str; 26] = [
     "error",
     "rng",
+    "vectors",
     "state",
     "modal",
     "asset",

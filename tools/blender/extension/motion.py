@@ -96,7 +96,8 @@ def add_ground(scene, size):
     """A ground at z = 0 for rigid bodies; one that is there is kept."""
     if bpy.data.objects.get(GROUND_NAME) in list(scene.objects):
         return
-    half = 20 * size
+    # Splinters fly far: within the seconds of a scene none may leave it.
+    half = 100 * size
     mesh = bpy.data.meshes.new(GROUND_NAME)
     # A slab, which fast pieces do not pass through. Blender lays the box of a rigid body about the object's origin.
     corners = [(x, y, z) for z in (size, -size) for x, y in ((-half, -half), (half, -half), (half, half), (-half, half))]

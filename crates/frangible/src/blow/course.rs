@@ -321,8 +321,7 @@ impl Blow {
 
     /// Follows the motion to a time step.
     fn follow(&mut self, motion: &mut Motion, until: usize) {
-        // With the widest vectors that this processor has; the same operations in the same order, so the same bits.
-        pulp::Arch::new().dispatch(Run {
+        crate::vectors::widest(Run {
             setup: Setup {
                 plan: &self.plan,
                 parted: &self.parted,

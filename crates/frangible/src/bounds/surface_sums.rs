@@ -10,8 +10,7 @@ use crate::stress::dot;
 pub(crate) fn surface_sums<const N: usize>(asset: &Asset, rows: &[Vec<f32>; N]) -> Vec<[f32; N]> {
     let mut sums = vec![[0.0_f32; N]; asset.surface_positions().len()];
     if asset.modes.count() > 0 {
-        // With the widest vectors that this processor has; the same operations in the same order, so the same bits.
-        pulp::Arch::new().dispatch(AtNodes {
+        crate::vectors::widest(AtNodes {
             asset,
             rows,
             sums: &mut sums,

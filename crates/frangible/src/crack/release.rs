@@ -163,7 +163,7 @@ impl Releases {
         suspect: &Suspect,
         enough: Option<(f32, Steps)>,
     ) -> StressLanes {
-        pulp::Arch::new().dispatch(Left {
+        crate::vectors::widest(Left {
             releases: self,
             field,
             suspect,

@@ -47,8 +47,7 @@ impl Suspects {
     ) {
         self.points.clear();
         self.of_step.iter_mut().for_each(Vec::clear);
-        // With the widest vectors that this processor has; the same operations in the same order, so the same bits.
-        pulp::Arch::new().dispatch(Look {
+        crate::vectors::widest(Look {
             suspects: self,
             body,
             field,
@@ -304,7 +303,7 @@ impl<I> Look<'_, '_, '_, I> {
     #[inline(never)]
     fn by_displacement(&mut self, place: usize, tet: u32, steps: Steps) {
         let field = &mut *self.field;
-        let state = pulp::Arch::new().dispatch(AtWeakPoint { field, tet });
+        let state = crate::vectors::widest(AtWeakPoint { field, tet });
         let bounds = state.tension_bounds();
         let passing = Suspects::passing(self.body, tet, &bounds, steps, self.peak);
         if passing != 0 {

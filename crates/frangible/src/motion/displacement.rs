@@ -92,7 +92,7 @@ impl DisplacementBatch {
     /// Computes the batch at every node in advance.
     pub fn fill(&mut self, asset: &Asset) {
         // With the widest vectors that this processor has, as where they are asked for.
-        pulp::Arch::new().dispatch(Fill { batch: self, asset });
+        crate::vectors::widest(Fill { batch: self, asset });
     }
 
     /// u = Φ q at a node, at all steps of the batch.

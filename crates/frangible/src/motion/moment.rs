@@ -29,8 +29,7 @@ impl Moment {
         let element = point.element as usize;
         let gradients = point.shape_gradients(&asset.analysis.barycentric_gradients[element]);
         let nodes = &asset.analysis.elements[element];
-        // With the widest vectors that this processor has; the same operations in the same order, so the same bits.
-        pulp::Arch::new().dispatch(Compute {
+        crate::vectors::widest(Compute {
             moment: self,
             asset,
             motion,

@@ -21,8 +21,7 @@ pub fn respond(basis: &ModalBasis, material: &Material, load: &[f64], pulse: &Pu
                 (mode, load[i] * pulse.amplitude)
             })
             .collect();
-        // With the widest vectors that this processor has; the same operations in the same order, so the same bits.
-        pulp::Arch::new().dispatch(Respond {
+        crate::vectors::widest(Respond {
             some: &some,
             first,
             modes,

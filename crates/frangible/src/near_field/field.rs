@@ -74,8 +74,7 @@ impl NearField {
         let still = bands.following_stress(wall, &radii);
         let swinging = bands.swinging_stress(wall, &radii);
         let mut table = [0, 1].map(|_| vec![0.0_f32; radii.len() * steps]);
-        // With the widest vectors that this processor has; the same operations in the same order, so the same bits.
-        pulp::Arch::new().dispatch(Fill {
+        crate::vectors::widest(Fill {
             table: &mut table,
             still: &still,
             swinging: &swinging,

@@ -94,7 +94,7 @@ pub(crate) fn refused_by_clusters(
         as_weakest: 0.0,
     };
     let mut bounds = vec![0.0; parts.count()];
-    pulp::Arch::new().dispatch(AllParts {
+    crate::vectors::widest(AllParts {
         parts: &parts,
         amplitudes,
         bounds: &mut bounds,

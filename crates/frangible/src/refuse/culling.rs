@@ -116,8 +116,7 @@ impl<'a> Culling<'a> {
         self.survivors.fill(if self.on { 0 } else { asked });
         if self.on && asked != 0 {
             self.asked_clusters = true;
-            // With the widest vectors that this processor has; the same operations in the same order, so the same bits.
-            pulp::Arch::new().dispatch(AskClusters {
+            crate::vectors::widest(AskClusters {
                 culling: self,
                 motion,
                 steps: steps.filter(|&step| asked >> lane(step) & 1 == 1),

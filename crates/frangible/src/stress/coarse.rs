@@ -35,8 +35,7 @@ impl Coarse {
     /// The shapes of the rows of a cluster's points; `periods`: amplitude of each mode under an impulse, in any unit. None where few shapes are not
     /// enough.
     pub(crate) fn new(frames: &[Frame], rows: &Rows, periods: &[f32]) -> Option<Self> {
-        // With the widest vectors that this processor has; the same operations in the same order, so the same bits.
-        pulp::Arch::new().dispatch(Find {
+        crate::vectors::widest(Find {
             frames,
             rows,
             periods,

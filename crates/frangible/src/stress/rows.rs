@@ -134,8 +134,7 @@ impl Rows {
             numbers: vec![[0.0; GROUP]; count.div_ceil(GROUP) * modes],
             modes,
         };
-        // With the widest vectors that this processor has; the same operations in the same order, so the same bits.
-        pulp::Arch::new().dispatch(Fill {
+        crate::vectors::widest(Fill {
             rows: &mut rows,
             asset,
             elasticity,

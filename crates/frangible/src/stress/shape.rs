@@ -31,8 +31,7 @@ impl Shape {
     #[inline]
     pub(crate) fn at(&self, asset: &Asset, node: usize) -> [f32; 3] {
         let block = self.blocks[node / BLOCK].get_or_init(|| {
-            // With the widest vectors that this processor has; the same operations in the same order, so the same bits.
-            pulp::Arch::new().dispatch(Dots {
+            crate::vectors::widest(Dots {
                 asset,
                 first: node / BLOCK * BLOCK,
                 amplitudes: &self.amplitudes,

@@ -100,8 +100,7 @@ impl Memory {
         but: Option<u32>,
         now: f64,
     ) -> bool {
-        // With the widest vectors that this processor has; the same operations in the same order, so the same bits.
-        pulp::Arch::new().dispatch(Update {
+        crate::vectors::widest(Update {
             memory: self,
             sources,
             ring,
