@@ -132,7 +132,7 @@ function refusals() {
   refused({ striker: { mass: 1, material: 'cheese' } }, /cheese/);
   assert.throws(() => pane.body(-1), /the seed is -1/);
   assert.throws(() => pane.body(1).impact(blows.pane, { pose: { position: [0, 0, 0], rotation: [0, 0, 0, 2] } }), /rotation/);
-  assert.throws(() => pane.body(1).impact([null]), /contacts\[0\] is no contact/);
+  assert.throws(() => pane.body(1).impact([null]), /contacts\[0\] is not a contact/);
 }
 
 async function refusedFiles() {
