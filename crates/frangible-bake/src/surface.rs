@@ -8,7 +8,7 @@ pub use frangible::internals::asset::SMALLEST_CURVATURE_RADIUS as SMALLEST_RADIU
 
 /// Largest angle between the normals of faces that are shaded smoothly across their edge, degrees.
 pub const CREASE: f64 = 35.0;
-/// The same limit for the lattice mesh of a solid, whose triangles deviate more from each other on curved surfaces, degrees.
+/// Largest angle between the normals of smoothly shaded faces of a lattice mesh, degrees. Its triangles deviate more on curved surfaces.
 pub const SOLID_CREASE: f64 = 50.0;
 /// Radii above this many body diagonals count as flat: they are the rounding of f32 positions.
 const FLAT: f64 = 50.0;

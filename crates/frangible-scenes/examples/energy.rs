@@ -94,7 +94,7 @@ Energy that the contacts of these blows brought into the body, and what became o
 | scene | approach, J | crushing, J | into the body, J | damped | faces | partings | pieces | ringing | not closed |
 |---|---:|---:|---:|---:|---:|---:|---:|---:|---:|";
 
-/// What became of a blow's energy.
+/// Row of the energy balance of a blow.
 fn share(name: &str, b: &BreakRecord) -> Option<String> {
     let r = &b.report;
     let energy = r.blow_energy;

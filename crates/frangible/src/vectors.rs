@@ -7,7 +7,11 @@ use pulp::NullaryFnOnce;
 #[inline]
 pub(crate) fn widest<Op: NullaryFnOnce>(operation: Op) -> Op::Output {
     #[cfg(target_arch = "wasm32")]
-    return operation.call();
+    {
+        operation.call()
+    }
     #[cfg(not(target_arch = "wasm32"))]
-    pulp::Arch::new().dispatch(operation)
+    {
+        pulp::Arch::new().dispatch(operation)
+    }
 }

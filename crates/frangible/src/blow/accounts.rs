@@ -59,7 +59,7 @@ impl Accounts {
         self.forces.extend_from_slice(forces);
     }
 
-    /// Takes the displacements of the body at the contacts anew: one that goes on to another piece has done no work by that.
+    /// Recomputes the displacements at the contacts without adding work, after a contact has moved to another piece.
     #[inline(always)]
     pub(super) fn rebase(
         &mut self,
@@ -102,7 +102,7 @@ impl Accounts {
         self.kept = whole;
     }
 
-    /// What became of the work. `pieces`: kinetic energy of the pieces in the end, J.
+    /// Returns the energy balance. `pieces`: kinetic energy of the separated pieces at the end, J.
     pub(super) fn report(&self, pieces: f64) -> BlowEnergy {
         BlowEnergy {
             work: self.work,

@@ -358,7 +358,7 @@ impl Flight {
         let Some(parted) = self.parted(setup) else {
             return;
         };
-        for lane in &mut self.lanes {
+        for (number, lane) in self.lanes.iter_mut().enumerate() {
             let by_rate = 4.0 / lane.solver.tick;
             for (answer, &growth) in lane.solver.answers.iter().zip(growth) {
                 if growth != 0.0 {
@@ -366,7 +366,9 @@ impl Flight {
                     bank.hold(state, lane.first, &answer.force, growth);
                 }
             }
-            lane.lose(parted);
+            if number == 0 {
+                lane.lose(parted);
+            }
             for ((at, rate), middle) in lane.at.iter_mut().zip(&mut lane.rate).zip(&lane.middle) {
                 *rate = by_rate * (middle - *at) - *rate;
                 *at = 2.0 * middle - *at;

@@ -67,7 +67,7 @@ impl Blow {
         ]
     }
 
-    /// What became of the contacts' work on the body.
+    /// Energy balance of the blow.
     pub(crate) fn accounts(&self) -> BlowEnergy {
         let parted = self.parted.last();
         let pieces = parted.map_or(0.0, |parted| parted.kinetic_energy(&self.drifts()));
