@@ -14,7 +14,8 @@ use crate::meshes::out;
 pub struct ColliderDetail {
     /// Largest number of convex parts of a whole body, 1 or more, and of points of each part. 1 part is the convex hull. Default 12 and 48.
     pub whole: (usize, usize),
-    /// The same limits for a fragment that a single hull does not fit. Default 4 and 24. A supported fragment uses its exact surface.
+    /// Largest number of convex parts of a fragment that a single hull does not fit, and of points of each part. Default 4 and 24. A supported fragment
+    /// uses its exact surface.
     pub fragment: (usize, usize),
     /// Largest ratio of hull volume to piece volume at which a fragment gets a single convex hull. Default 1.5.
     pub hull_volume_ratio: f64,
