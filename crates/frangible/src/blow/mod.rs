@@ -53,6 +53,7 @@ mod faces;
 mod flight;
 mod groups;
 mod integrate;
+mod lane;
 mod limits;
 mod moments;
 mod parted;
