@@ -6,10 +6,11 @@
 //! which direction it acts. A single step's impulses are noisy, so a body breaks only when each of [`STEADY`] looks in a row would have
 //! broken it.
 
+use avian3d::dynamics::solver::islands::WakeBody;
 use avian3d::prelude::*;
 use bevy::prelude::*;
 use frangible::internals::outcome::LookedAt;
-use frangible::internals::{Force, rest, rest_margin_at_least};
+use frangible::internals::{Force, LoadClock, rest, rest_margin_at_least};
 use frangible::{Outcome, glam};
 
 use super::ImpactSpeed;
@@ -45,6 +46,8 @@ pub struct Carries {
     pause: u32,
     /// Looks in a row at which the quick bound did not clear it: only a load that lasts is analysed further.
     hard: u32,
+    /// Time for which the load has lasted, for static fatigue.
+    clock: LoadClock,
 }
 
 impl Default for Carries {
@@ -56,6 +59,7 @@ impl Default for Carries {
             over: 0,
             pause: 0,
             hard: 0,
+            clock: LoadClock::default(),
         }
     }
 }
@@ -144,12 +148,22 @@ pub(super) fn weigh(
     if dt <= 0.0 || *since < INTERVAL - 0.5 * dt {
         return;
     }
-    *since = 0.0;
+    let seconds = f64::from(std::mem::take(&mut *since));
     let substep = dt / substeps.0 as f32;
     for (entity, mut body, mut carries, kind, place, turn, scale, colliders, asleep) in &mut bodies
     {
         let held = kind.is_static() && body.0.asset().is_supported();
-        if !(kind.is_dynamic() || held) || asleep && carries.over == 0 {
+        if !(kind.is_dynamic() || held) {
+            continue;
+        }
+        if asleep && carries.over == 0 {
+            let assumed = config.0.load_duration;
+            carries.clock.sleep(seconds);
+            if carries.clock.is_due(&body.0, assumed)
+                && carries.clock.margin(&body.0, assumed, carries.margin) <= 1.0
+            {
+                commands.queue(WakeBody(entity));
+            }
             continue;
         }
         let to_body = turn.0.inverse();
@@ -158,6 +172,7 @@ pub(super) fn weigh(
         let pairs = colliders.flat_map(|collider| collisions.collisions_with(collider));
         let forces = forces_on(entity, to_body, pairs, substep, impact_speed.0);
         let total = forces.iter().map(|f| f.force.length()).sum();
+        carries.clock.advance(seconds, total);
         match carries.look(
             &body,
             forces,
@@ -192,11 +207,13 @@ impl Carries {
             return None;
         }
         if self.over == 0 {
-            let margin =
-                rest_margin_at_least(&body.0, total, gravity.length(), config.0.load_duration);
+            let lasted = config.0.load_duration + self.clock.duration();
+            let margin = rest_margin_at_least(&body.0, total, gravity.length(), lasted);
             if margin >= EASE {
+                self.clock.test();
                 *self = Self {
                     margin,
+                    clock: self.clock,
                     ..Self::default()
                 };
                 return None;
@@ -208,11 +225,15 @@ impl Carries {
             }
         }
         self.pause = self.pause.saturating_sub(1);
-        let known = self.over == 0 && (&self.forces, self.gravity) == (&forces, gravity);
+        let due = self.clock.is_due(&body.0, config.0.load_duration);
+        let known = self.over == 0 && (&self.forces, self.gravity) == (&forces, gravity) && !due;
         if known || self.pause > 0 {
             return None;
         }
-        let outcome = rest(&body.0, &forces, gravity, &config.0);
+        let mut fracture = config.0.clone();
+        fracture.load_duration += self.clock.duration();
+        let outcome = rest(&body.0, &forces, gravity, &fracture);
+        self.clock.test();
         (self.forces, self.gravity) = (forces, gravity);
         match &outcome {
             Ok(Outcome::Held {

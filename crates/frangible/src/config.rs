@@ -55,7 +55,8 @@ pub struct FractureConfig {
     /// it stops at the face `[G12 §5.2.4]`.
     pub ends_inside: bool,
     /// Assumed duration of sustained loads, s: with static fatigue, glass that holds for a second may fail within a year
-    /// ([`Fields::fatigue`](crate::internals::Fields::fatigue)). Zero or more. Default 1. Has no effect on blows.
+    /// ([`Fields::fatigue`](crate::internals::Fields::fatigue)). Worlds add the time for which a load has lasted in them. Zero or more.
+    /// Default 1. Has no effect on blows.
     pub load_duration: f64,
     /// Smallest volume of a piece as a share of the body's volume; a smaller piece stays with the neighbour with the largest common
     /// area. Default 2e-4.

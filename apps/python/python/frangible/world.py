@@ -49,7 +49,8 @@ class World:
         floor: Material of the floor at y = 0; None for no floor.
         seed: Random seed for all weak points.
         generations: Maximum number of times that pieces can break again.
-        load_duration: Assumed duration of sustained loads, s; static fatigue reduces the strength of glass under long loads.
+        load_duration: Assumed duration of a sustained load when it begins, s. The time for which it has lasted in the world is added; static
+            fatigue reduces the strength of glass under long loads.
 
     Raises:
         ValueError: A number or a name is invalid.

@@ -7,6 +7,9 @@
 //! The last of these steps starts with a copy of the world and is repeated with fragments, as after an impact. If steps are shorter than
 //! [`INTERVAL`], only one step per interval is tested.
 //!
+//! A load that lasts weakens bodies with static fatigue. Each body has a clock ([`LoadClock`]); an unchanged load is tested again whenever the
+//! strength may have fallen by a hundredth, and a sleeping body is woken when the load may break it.
+//!
 //! The force that separates overlapping bodies is not a load: it depends on the engine's iterations, and between immovable bodies it grows from
 //! step to step. Resting bodies hardly overlap, so a body with a contact deeper than [`OVERLAP`] is treated as unloaded until the overlap is
 //! resolved.
@@ -14,8 +17,8 @@
 use std::collections::BTreeMap;
 
 use frangible::glam::Vec3;
-use frangible::internals::Force;
 use frangible::internals::outcome::LookedAt;
+use frangible::internals::{Force, LoadClock, rest_margin_at_least};
 use frangible::{Body, Contact, Outcome, Striker};
 use rapier3d::dynamics::{RigidBody, RigidBodyHandle};
 use rapier3d::pipeline::PhysicsWorld;
@@ -82,6 +85,8 @@ pub(crate) struct Burden {
     pause: u32,
     /// Number of consecutive checks in which the quick bound was not sufficient; only a lasting load is analysed further.
     hard: u32,
+    /// Time for which the load has lasted.
+    clock: LoadClock,
 }
 
 impl Default for Burden {
@@ -92,6 +97,7 @@ impl Default for Burden {
             over: 0,
             pause: 0,
             hard: 0,
+            clock: LoadClock::default(),
         }
     }
 }
@@ -186,8 +192,13 @@ impl BreakableWorld {
 
     /// Returns true if loads are looked at after the coming step.
     pub(crate) fn weighs_now(&self) -> bool {
+        self.config.resting_loads && self.state.steps.is_multiple_of(self.stride())
+    }
+
+    /// Steps from one look at the loads to the next.
+    fn stride(&self) -> u64 {
         let stride = (INTERVAL / self.physics.integration_parameters.dt).round();
-        self.config.resting_loads && self.state.steps.is_multiple_of((stride as u64).max(1))
+        (stride as u64).max(1)
     }
 
     /// Bodies that the coming step may break by their load.
@@ -213,9 +224,21 @@ impl BreakableWorld {
             return None;
         }
         let load = load_on(handle, rigid, &self.physics, Some(before), &self.config);
-        let outcome = (self.rest_function)(body, &load.forces, load.gravity, &self.config.fracture);
+        let outcome = self.rest_after(burden.clock, body, &load);
         let dt = self.physics.integration_parameters.dt;
         Some(outcome.map(|o| (load.cause(dt), o)).map_err(Into::into))
+    }
+
+    /// Outcome of a load that has lasted since its clock began.
+    fn rest_after(
+        &self,
+        clock: LoadClock,
+        body: &Body,
+        load: &Load,
+    ) -> Result<Outcome, frangible::InputError> {
+        let mut config = self.config.fracture.clone();
+        config.load_duration += clock.duration();
+        (self.rest_function)(body, &load.forces, load.gravity, &config)
     }
 
     /// Asks all bodies that carry something new; gives cracks to those that cracked.
@@ -245,21 +268,30 @@ impl BreakableWorld {
         ) else {
             return Ok(());
         };
-        let asleep = rigid.is_sleeping() && burdens.get(&key(handle)).is_some_and(|b| b.over == 0);
-        if asleep || !carries(body, rigid) {
+        if !carries(body, rigid) {
             return Ok(());
         }
-        if self.weighs_quickly && burdens.get(&key(handle)).is_none_or(|b| b.over == 0) {
-            let total = most_force_on(rigid, &self.physics);
+        let assumed = self.config.fracture.load_duration;
+        let dt = f64::from(self.physics.integration_parameters.dt);
+        let seconds = dt * self.stride() as f64;
+        let known = burdens.contains_key(&key(handle));
+        if rigid.is_sleeping()
+            && let Some(burden) = burdens.get_mut(&key(handle)).filter(|b| b.over == 0)
+        {
+            burden.clock.sleep(seconds);
+            let due = burden.clock.is_due(body, assumed);
+            if due && burden.clock.margin(body, assumed, burden.margin) <= 1.0 {
+                self.physics.wake_up(handle, true);
+            }
+            return Ok(());
+        }
+        let burden = burdens.entry(key(handle)).or_default();
+        let total = most_force_on(rigid, &self.physics);
+        burden.clock.advance(seconds, total);
+        if self.weighs_quickly && burden.over == 0 {
             let gravity = self.physics.gravity.length() * rigid.gravity_scale().abs();
-            let margin = frangible::internals::rest_margin_at_least(
-                body,
-                total,
-                gravity,
-                self.config.fracture.load_duration,
-            );
-            let known = burdens.contains_key(&key(handle));
-            let burden = burdens.entry(key(handle)).or_default();
+            let lasted = assumed + burden.clock.duration();
+            let margin = rest_margin_at_least(body, total, gravity, lasted);
             burden.hard = match (margin >= EASE, known) {
                 (true, _) => 0,
                 // The first load of a body is looked at in any case.
@@ -277,12 +309,13 @@ impl BreakableWorld {
                     burden.margin
                 };
                 burden.load.gravity = Vec3::NAN;
+                burden.clock.test();
                 return Ok(());
             }
         }
         let load = load_on(handle, rigid, &self.physics, before, &self.config);
-        let burden = burdens.entry(key(handle)).or_default();
-        let known = burden.over == 0 && burden.load == load;
+        let due = burden.clock.is_due(body, assumed);
+        let known = burden.over == 0 && burden.load == load && !due;
         burden.pause = burden.pause.saturating_sub(1);
         if known || burden.pause > 0 {
             return Ok(());
@@ -291,7 +324,8 @@ impl BreakableWorld {
             (burden.margin, burden.over, burden.load) = (f64::INFINITY, 0, load);
             return Ok(());
         }
-        let asked = (self.rest_function)(body, &load.forces, load.gravity, &self.config.fracture);
+        let asked = self.rest_after(burden.clock, body, &load);
+        burden.clock.test();
         if let Ok(outcome) = &asked {
             self.state
                 .rest_counts
