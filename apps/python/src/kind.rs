@@ -154,12 +154,13 @@ impl Kind {
         Ok(PyArray1::from_slice(py, mesh.tets.as_flattened()))
     }
 
-    /// Strength, toughness and weak points of each tetrahedron, as factors on its material's numbers; none where all are 1.
+    /// Strength, toughness and weak points of each tetrahedron, as factors on its material's numbers, and the depth of a groove, m; none where
+    /// all are 1.
     fn factors<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let of_tet = &self.whole("has no factors of its own")?.fields().of_tet;
         let rows = of_tet
             .iter()
-            .flat_map(|f| [f.strength, f.toughness, f.weak_points]);
+            .flat_map(|f| [f.strength, f.toughness, f.weak_points, f.groove]);
         Ok(numbers(py, rows))
     }
 
@@ -167,10 +168,11 @@ impl Kind {
     fn with_factors(&self, py: Python<'_>, rows: PyReadonlyArray1<'_, f64>) -> PyResult<Self> {
         let kind = self.whole("cannot be weakened")?.clone();
         let of_tet = rows.as_slice()?.as_chunks().0.iter();
-        let of_tet = of_tet.map(|&[strength, toughness, weak_points]| Factors {
+        let of_tet = of_tet.map(|&[strength, toughness, weak_points, groove]| Factors {
             strength: strength as f32,
             toughness: toughness as f32,
             weak_points: weak_points as f32,
+            groove: groove as f32,
         });
         let mut fields = Fields::clone(kind.fields());
         fields.of_tet = of_tet.collect();

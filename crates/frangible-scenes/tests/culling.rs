@@ -200,6 +200,7 @@ fn culling_changes_no_bit_where_the_strength_varies() {
             strength: 1.0 + 0.9 * (90.0 * p.x).sin(),
             toughness: 1.0 + 0.8 * (70.0 * p.y).cos(),
             weak_points: 1.0 + (50.0 * p.z).sin(),
+            ..Factors::ONE
         });
         let line = Zone::Tube {
             line: vec![Vec3::new(0.02, -0.2, 0.0), Vec3::new(0.04, 0.2, 0.0)],

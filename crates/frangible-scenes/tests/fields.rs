@@ -44,6 +44,7 @@ fn the_same_factor_everywhere_is_another_material() {
         strength: 0.5,
         toughness: 0.25,
         weak_points: 2.0,
+        ..Factors::ONE
     };
     let mut other = Asset::clone(pane());
     other.material.strength *= 0.5;
@@ -88,6 +89,52 @@ fn no_crack_starts_where_there_are_no_weak_points() {
             assert!(start.x > 0.0, "{start}");
         }
     }
+}
+
+#[test]
+fn a_scored_pane_breaks_from_its_groove_at_the_strength_of_a_flaw_as_deep() {
+    let asset = pane();
+    let edge = asset.fracture.mean_edge();
+    let line = [-1.0, 1.0].map(|y| Vec3::new(0.04, y, 0.0)).to_vec();
+    let zone = Zone::Tube { line, radius: edge };
+    let scored = |depth| {
+        let patch = Patch::of_groove(zone.clone(), depth);
+        let fields = weakness::patched(Fields::of_material(&asset.material), asset, &[patch]);
+        kind(asset, fields.unwrap())
+    };
+    let plain = kind(asset, Fields::of_material(&asset.material));
+    let config = FractureConfig::default();
+    let material = &asset.material;
+    let toughness = (material.fracture_energy * material.contact_modulus()).sqrt();
+    let mut from_groove = 0;
+    for seed in 1..=8 {
+        let run = |kind: &Breakable, speed| {
+            impact_traced(&kind.body(seed), &[pane_hit(0.0, 0.0, speed)], &config).unwrap()
+        };
+        // Slower than what cracks the plain pane.
+        let mut speed = 8.0;
+        while run(&plain, speed).0.report().cracks > 0 {
+            speed *= 0.9;
+        }
+        let (outcome, trace) = run(&scored(1e-3), speed);
+        let report = outcome.report();
+        println!(
+            "{speed} m/s: {} cracks, {} Pa",
+            report.cracks, report.strength
+        );
+        from_groove +=
+            u32::from(trace.cracks.first().is_some_and(|crack| {
+                zone.contains(asset.fracture.centroid(crack[0].tet as usize))
+            }));
+        // An edge crack of 1 mm in bending, a quarter of the way through: F = 1.08 (Brown and Srawley).
+        let flaw = toughness / (1.08 * (std::f64::consts::PI * 1e-3).sqrt());
+        let found = report.strength;
+        assert!(
+            (found / flaw - 1.0).abs() < 0.05,
+            "{found} Pa, not {flaw} Pa"
+        );
+    }
+    assert!(from_groove >= 6, "{from_groove} of 8");
 }
 
 #[test]

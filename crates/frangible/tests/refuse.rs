@@ -80,6 +80,7 @@ fn the_bounds_change_no_bit_where_strength_varies() {
             strength: 1.0 + 0.9 * (90.0 * p.x).sin(),
             toughness: 1.0 + 0.8 * (70.0 * p.y).cos(),
             weak_points: 1.0 + (50.0 * p.z).sin(),
+            ..Factors::ONE
         });
         for fields in [waves.clone(), waves.with_weibull_modulus(6.0)] {
             let kind = kind.clone().with_fields(fields).unwrap();

@@ -47,6 +47,7 @@ fn body(draw: &mut Draw<'_>) -> Option<Body> {
             strength: draw.size(0.05, 20.0) as f32,
             toughness: draw.size(0.05, 20.0) as f32,
             weak_points: draw.size(0.05, 20.0) as f32,
+            groove: draw.size(1e-5, 0.1) as f32 * f32::from(u8::from(draw.between(0.0, 1.0) > 0.7)),
         };
         let (here, there) = (factors(), factors());
         let (normal, distance) = (draw.direction(), draw.between(-0.1, 0.1) as f32);

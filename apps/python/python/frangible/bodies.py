@@ -88,7 +88,13 @@ class Body:
         """Mass-normalised mode shapes: (k, n, 3) displacement of each vertex in each mode, 1/√kg."""
         return np.stack([rows(self._kind.mode(i), 3) for i in range(len(self.frequencies))])
 
-    def weakened(self, strength: Factor | None = None, toughness: Factor | None = None, weak_points: Factor | None = None) -> Body:
+    def weakened(
+        self,
+        strength: Factor | None = None,
+        toughness: Factor | None = None,
+        weak_points: Factor | None = None,
+        groove: Factor | None = None,
+    ) -> Body:
         """Returns this body with locally varying strength, toughness or density of weak points.
 
         Each argument is a factor on the material's value: a number, an array (n,) with one factor for each of ``vertices``, or a function. With
@@ -109,6 +115,8 @@ class Body:
             strength: Factor on the tensile strength, above 0.
             toughness: Factor on the fracture energy, above 0. Default: the square of the strength factor, which leaves the flaw size unchanged.
             weak_points: Factor on the density of weak points, from 0; where it is 0, no crack starts.
+            groove: Depth of a groove in the surface, m, from 0 (no groove). A groove is a flaw of its depth: it sets the strength and the
+                toughness in place of their factors.
 
         Raises:
             ValueError: A factor is out of bounds or has the wrong shape, or the body is a piece, which keeps the factors of its parent body.
@@ -120,10 +128,12 @@ class Body:
 
         strong = of_tets(strength, "strength")
         tough = strong**2 if toughness is None else of_tets(toughness, "toughness")
-        factors = np.stack([strong, tough, of_tets(weak_points, "weak_points", zero=True)], axis=1)
+        deep = np.zeros(len(tets)) if groove is None else of_tets(groove, "groove", zero=True)
+        factors = np.stack([strong, tough, of_tets(weak_points, "weak_points", zero=True), deep], axis=1)
         before = self._kind.factors()
         if before.size:
-            factors *= rows(before, 3)
+            factors[:, :3] *= rows(before, 4)[:, :3]
+            factors[:, 3] = np.where(deep > 0, deep, rows(before, 4)[:, 3])
         return Body(self._kind.with_factors(factors.ravel()), self.scale, self.offset)
 
     def scattered(self, weibull_modulus: float | None = None, specimen: float | None = None, fatigue: Fatigue | None = None) -> Body:

@@ -60,12 +60,14 @@ pub fn from_vertices(
             strength: 0.0,
             toughness: 0.0,
             weak_points: 0.0,
+            groove: 0.0,
         };
         for (v, w) in at {
             let of_vertex = factors(v);
             mean.strength += w * of_vertex.strength;
             mean.toughness += w * of_vertex.toughness;
             mean.weak_points += w * of_vertex.weak_points;
+            mean.groove += w * of_vertex.groove;
         }
         mean
     })

@@ -51,6 +51,8 @@ pub struct Paint {
     pub toughness: Option<[f32; 2]>,
     /// Factors on the density of weak points, if it differs; 0 or above.
     pub weak_points: Option<[f32; 2]>,
+    /// Depths of a groove in the surface, m, if there is one; 0 or above ([`Factors::groove`]).
+    pub groove: Option<[f32; 2]>,
 }
 
 impl Paint {
@@ -62,6 +64,7 @@ impl Paint {
             strength: Some(strength),
             toughness: None,
             weak_points: None,
+            groove: None,
         }
     }
 
@@ -74,13 +77,14 @@ impl Paint {
             ("strength", self.strength, f32::MIN_POSITIVE),
             ("toughness", self.toughness, f32::MIN_POSITIVE),
             ("weak points", self.weak_points, 0.0),
+            ("groove", self.groove, 0.0),
         ] {
             let sound = |f: &f32| f.is_finite() && *f >= least;
             if let Some(bad) = factors.iter().flatten().find(|f| !sound(f)) {
                 let channel = self.channel.name();
                 let must = if least > 0.0 { "above 0" } else { "0 or above" };
                 return Err(InputError::Field(format!(
-                    "the factor on the {what} painted in {channel} is {bad}; it must be finite and {must}"
+                    "the value of the {what} painted in {channel} is {bad}; it must be finite and {must}"
                 )));
             }
         }
@@ -93,6 +97,7 @@ impl Paint {
         if let Some(strength) = self.strength {
             *factors = Factors {
                 weak_points: factors.weak_points,
+                groove: factors.groove,
                 ..Factors::of_strength(at(strength))
             };
         }
@@ -101,6 +106,9 @@ impl Paint {
         }
         if let Some(weak_points) = self.weak_points {
             factors.weak_points = at(weak_points);
+        }
+        if let Some(groove) = self.groove {
+            factors.groove = at(groove);
         }
     }
 }

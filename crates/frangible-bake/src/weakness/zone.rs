@@ -105,6 +105,8 @@ pub struct Patch {
     pub toughness: Option<f32>,
     /// Factor on the density of weak points, if it differs.
     pub weak_points: Option<f32>,
+    /// Depth of a groove in the surface, m. It sets the strength and the toughness of the zone ([`Factors::groove`]) in place of their factors. Let the zone reach through the wall: the groove shortens the path of a crack within the zone only.
+    pub groove: Option<f32>,
 }
 
 impl Patch {
@@ -116,6 +118,19 @@ impl Patch {
             strength: Some(strength),
             toughness: None,
             weak_points: None,
+            groove: None,
+        }
+    }
+
+    /// Makes a patch with a groove of this depth, m.
+    #[must_use]
+    pub const fn of_groove(zone: Zone, depth: f32) -> Self {
+        Self {
+            zone,
+            strength: None,
+            toughness: None,
+            weak_points: None,
+            groove: Some(depth),
         }
     }
 
@@ -130,6 +145,9 @@ impl Patch {
         }
         if let Some(weak_points) = self.weak_points {
             factors.weak_points = weak_points;
+        }
+        if let Some(groove) = self.groove {
+            factors.groove = groove;
         }
     }
 }

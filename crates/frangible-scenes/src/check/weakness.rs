@@ -50,11 +50,30 @@ pub(super) fn check_weakness(body: &BodySpec) -> Result<(), Fault> {
 fn check_patch(patch: &Patch) -> Result<(), Fault> {
     patch.zone.check().map_err(|e| Fault::new("weakness", e))?;
     let one = |factor: Option<f32>| factor.map(|f| [f, f]);
-    check_factors([patch.strength, patch.toughness, patch.weak_points].map(one))
+    check_groove(one(patch.groove))?;
+    let factors = [patch.strength, patch.toughness, patch.weak_points];
+    if patch.groove.is_some() && factors[..2].iter().any(Option::is_some) {
+        let problem = "`groove` sets the strength and the toughness of its zone by its depth; remove `strength` and `toughness`, or `groove`";
+        return Err(Fault::new("weakness", SceneError::Clash(problem.into())));
+    }
+    check_factors(factors.map(one))
 }
 
 fn check_paint(paint: &Paint) -> Result<(), Fault> {
+    check_groove(paint.groove)?;
     check_factors([paint.strength, paint.toughness, paint.weak_points])
+}
+
+/// Checks the depth of a groove.
+fn check_groove(depths: Option<[f32; 2]>) -> Result<(), Fault> {
+    let sound = |d: &f32| (0.0..=1.0).contains(d);
+    match depths.iter().flatten().find(|d| !sound(d)) {
+        Some(depth) => {
+            let must = "0 to 1 m";
+            Err(quantity("weakness", "the depth of a groove", depth, must))
+        }
+        None => Ok(()),
+    }
 }
 
 /// Checks the factors of strength, toughness and weak points that are given.

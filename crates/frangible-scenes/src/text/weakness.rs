@@ -31,6 +31,7 @@ pub(super) struct WeaknessTable {
     strength: Option<OneOrTwo>,
     toughness: Option<OneOrTwo>,
     weak_points: Option<OneOrTwo>,
+    groove: Option<OneOrTwo>,
 }
 
 /// A plane; the part of the body behind it belongs to the zone.
@@ -78,6 +79,7 @@ fn paint(channel: &str, table: WeaknessTable) -> Result<Paint, Fault> {
         strength: pair(table.strength),
         toughness: pair(table.toughness),
         weak_points: pair(table.weak_points),
+        groove: table.groove.map(|g| g.two(0.0)),
     })
 }
 
@@ -104,11 +106,12 @@ fn patch(table: WeaknessTable) -> Result<Patch, Fault> {
         strength: single_factor(table.strength)?,
         toughness: single_factor(table.toughness)?,
         weak_points: single_factor(table.weak_points)?,
+        groove: single_factor(table.groove)?,
     })
 }
 
 fn single_factor(given: Option<OneOrTwo>) -> Result<Option<f32>, Fault> {
-    let problem = "a zone takes single factors; pairs, for colour 0 and colour 1, are allowed only with `paint`";
+    let problem = "a zone takes single values; pairs, for colour 0 and colour 1, are allowed only with `paint`";
     given
         .map(|g| g.one().ok_or_else(|| clash(KEY, problem)))
         .transpose()
@@ -120,6 +123,7 @@ pub(super) fn paint_text(paint: &Paint) -> String {
         ("strength", paint.strength),
         ("toughness", paint.toughness),
         ("weak_points", paint.weak_points),
+        ("groove", paint.groove),
     ] {
         parts.extend(factors.map(|f| format!("{key} = {}", list(&f))));
     }
@@ -148,6 +152,7 @@ pub(super) fn patch_text(patch: &Patch) -> String {
         ("strength", patch.strength),
         ("toughness", patch.toughness),
         ("weak_points", patch.weak_points),
+        ("groove", patch.groove),
     ] {
         parts.extend(factor.map(|f| format!("{key} = {}", single(f))));
     }

@@ -143,6 +143,15 @@ fn weak_places_are_read_and_mistakes_in_them_named() {
             "{ sphere = [0, 0, 0], radius = 1, strength = [1, 0.2] }",
             "`paint`",
         ),
+        (
+            "{ sphere = [0, 0, 0], radius = 1, groove = -1e-3 }",
+            "groove",
+        ),
+        ("{ paint = \"red\", groove = [0, inf] }", "groove"),
+        (
+            "{ sphere = [0, 0, 0], radius = 1, groove = 1e-3, strength = 0.5 }",
+            "`groove`",
+        ),
     ] {
         let message = refused(&format!(
             "[[body]]\nmesh = \"a.ply\"\nweakness = [{weakness}]\n"

@@ -76,6 +76,7 @@ pub(crate) fn intricate() -> Scene {
     third.weakness[1].strength = None;
     third.weakness[1].toughness = Some(2.0);
     third.weakness[2].weak_points = Some(0.0);
+    third.weakness[3] = Patch::of_groove(third.weakness[3].zone.clone(), 1e-3 / 3.0);
     third.paint = vec![
         Paint::of_strength(Channel::Green, [1.0 / 3.0, 1.0]),
         Paint {
@@ -83,6 +84,7 @@ pub(crate) fn intricate() -> Scene {
             strength: None,
             toughness: Some([1.0, 7.0]),
             weak_points: Some([0.0, 0.1]),
+            groove: Some([0.0, 1e-3 / 3.0]),
         },
     ];
     third.rescale.size = Some(1.0 / 3.0);

@@ -62,6 +62,7 @@ impl Breakable {
     /// Fields of another asset, or with an invalid number.
     pub fn with_fields(self, fields: Fields) -> Result<Self, InputError> {
         fields.check(&self.asset)?;
+        let fields = fields.with_grooves(&self.asset.material, &self.prepared.thickness);
         let fields = Arc::new(fields);
         Ok(Self {
             toughness: Toughness::new(&self.asset.material, &fields, &self.asset.fracture),
@@ -77,7 +78,11 @@ impl Breakable {
     pub fn scaled(&self, factor: f64) -> Result<Self, RescaleError> {
         let asset = scaled(&self.asset, factor)?;
         let kind = Self::of_sound(Arc::new(asset));
-        Ok(kind.with_fields(Fields::clone(&self.fields))?)
+        let mut fields = Fields::clone(&self.fields);
+        for factors in &mut fields.of_tet {
+            factors.groove *= factor as f32;
+        }
+        Ok(kind.with_fields(fields)?)
     }
 
     /// The asset.

@@ -30,6 +30,9 @@ const AT_SURFACE_MOST: f64 = AT_SURFACE * PENNY / 2.0;
 impl CrackSystem<'_> {
     /// Depth of the layer that feeds a front of a crack under this stress, m.
     pub(super) fn depth(&self, crack: &Crack, tet: u32, felt: &Felt) -> f64 {
+        if self.resistance.is_grooved(tet) {
+            return self.paid_at_strength(tet);
+        }
         let surface = if crack.at_surface { AT_SURFACE } else { 1.0 };
         let grown = surface * PENNY * crack.area / crack.front.max(f64::MIN_POSITIVE);
         let most = self.most_depth(tet, crack.at_surface || felt.wall.is_some());
@@ -39,10 +42,18 @@ impl CrackSystem<'_> {
     /// Depth of the layer that feeds the flaw of a weak tetrahedron, m: at its strength it pays for the crack, unless the body has no room for one
     /// that large. `at_surface`: true if it lies on a free surface, or in a wall.
     pub(super) fn flaw_feed(&self, tet: u32, at_surface: bool) -> f64 {
+        let depth = self.paid_at_strength(tet);
+        match self.resistance.is_grooved(tet) {
+            true => depth,
+            false => depth.min(self.most_depth(tet, at_surface)),
+        }
+    }
+
+    /// Depth of the layer whose energy pays for a crack at the strength of a tetrahedron, m.
+    fn paid_at_strength(&self, tet: u32) -> f64 {
         let strength = f64::from(self.resistance.strength(tet));
         let toughness = self.resistance.toughness.of(tet);
-        let depth = 2.0 * self.asset.material.contact_modulus() * toughness / (strength * strength);
-        depth.min(self.most_depth(tet, at_surface))
+        2.0 * self.asset.material.contact_modulus() * toughness / (strength * strength)
     }
 
     /// Depth of the layer that feeds the largest crack that a body has room for at a tetrahedron, m.

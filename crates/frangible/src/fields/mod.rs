@@ -7,6 +7,7 @@
 //! The factors are not baked. They belong to a [`Breakable`](crate::Breakable), so that scored and plain bodies share an asset; culling
 //! compares each cluster with its weakest point.
 
+mod groove;
 mod kink;
 mod resistance;
 mod scatter;
@@ -30,6 +31,9 @@ pub struct Factors {
     pub toughness: f32,
     /// Factor on the density of weak points, 0 or above; if it is 0, no crack starts.
     pub weak_points: f32,
+    /// Depth of a groove in the surface, m; 0: none. A groove is a flaw of its depth: it sets the strength and the toughness, in place of
+    /// their factors.
+    pub groove: f32,
 }
 
 impl Factors {
@@ -38,6 +42,7 @@ impl Factors {
         strength: 1.0,
         toughness: 1.0,
         weak_points: 1.0,
+        groove: 0.0,
     };
 
     /// Scales the strength, and the toughness so that the flaw size stays the same: G_c ∝ K_Ic² ∝ R_c².
@@ -49,6 +54,16 @@ impl Factors {
             strength,
             toughness: strength * strength,
             weak_points: 1.0,
+            groove: 0.0,
+        }
+    }
+
+    /// Sets the strength and the toughness to those of a groove of this depth, m.
+    #[must_use]
+    pub const fn of_groove(depth: f32) -> Self {
+        Self {
+            groove: depth,
+            ..Self::ONE
         }
     }
 }
@@ -169,11 +184,13 @@ impl Fields {
             let positive = |x: f32| x.is_finite() && x > 0.0;
             let sound = positive(f.strength)
                 && positive(f.toughness)
+                && f.groove.is_finite()
+                && f.groove >= 0.0
                 && f.weak_points.is_finite()
                 && f.weak_points >= 0.0;
             if !sound {
                 return Err(InputError::Field(format!(
-                    "{f:?} at tetrahedron {tet}; strength and toughness must be finite and above 0, weak points 0 or above"
+                    "{f:?} at tetrahedron {tet}; strength and toughness must be finite and above 0, weak points and groove 0 or above"
                 )));
             }
         }

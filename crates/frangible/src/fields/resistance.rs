@@ -119,7 +119,10 @@ impl Resistance {
             let single = libm::pow(flaws, 1.0 / fields.weibull_modulus);
             for &e in weak_tets {
                 let factor = single * scatter(seed, e, fields.weibull_modulus);
-                of_tet[e as usize] = rounded(body.painted(e) * factor);
+                of_tet[e as usize] = match body.groove(e) {
+                    Some(groove) => rounded(groove.min(body.material * factor)),
+                    None => rounded(body.painted(e) * factor),
+                };
             }
         }
         let weakest = weak_tets.iter().map(|&e| of_tet[e as usize]);
@@ -197,6 +200,10 @@ impl Resistance {
     /// Depth of the flaw that a weak tetrahedron stands for, m: that of its own strength, and no deeper than that of the material's. A body
     /// that was strengthened keeps its flaws.
     pub(crate) fn flaw_depth(&self, material: &Material, tet: u32) -> f32 {
+        // The shape factor of a groove takes the decrease of the stress over its depth into account.
+        if self.groove(tet).is_some() {
+            return 0.0;
+        }
         let largest = f64::from(self.strength(tet)).max(self.painted(tet)) / self.strengthened;
         material.flaw_depth(self.toughness.of(tet), largest) as f32
     }
@@ -204,9 +211,21 @@ impl Resistance {
     /// R_c of a place without the scatter of its weak points, Pa: for cracks that run there.
     pub(crate) fn painted(&self, tet: u32) -> f64 {
         match self.fields.of_tet.get(tet as usize) {
+            Some(f) if f.groove > 0.0 => self.material * f64::from(f.strength.min(1.0)),
             Some(f) => self.material * f64::from(f.strength),
             None => self.material,
         }
+    }
+
+    /// Returns true if a tetrahedron lies in a groove.
+    pub(crate) fn is_grooved(&self, tet: u32) -> bool {
+        self.groove(tet).is_some()
+    }
+
+    /// Strength of the groove at a tetrahedron, Pa.
+    fn groove(&self, tet: u32) -> Option<f64> {
+        let factors = self.fields.of_tet.get(tet as usize)?;
+        (factors.groove > 0.0).then(|| self.material * f64::from(factors.strength))
     }
 
     /// The smallest strength of some tetrahedra, Pa.
