@@ -150,7 +150,7 @@ fn parse_seed(text: &str) -> Result<u64, String> {
 
 #[derive(Args, Clone, Debug)]
 pub(crate) struct BreakCommand {
-    /// File to break: a mesh (.obj .stl .ply .gltf .glb, or tetrahedra .msh .node .ele .vtk .vtu .mesh; dropped, of porcelain), a baked body (.frangible) or a scene (.toml)
+    /// File to break: a mesh (.obj .stl .ply .gltf .glb, or tetrahedra .msh .node .ele .mesh; dropped, of porcelain), a baked body (.frangible) or a scene (.toml)
     #[arg(value_name = "FILE", conflicts_with = "scene")]
     pub(crate) file: Option<PathBuf>,
 
@@ -180,7 +180,7 @@ pub(crate) struct MeshArgs {
 
 #[derive(Args, Clone, Debug)]
 pub(crate) struct BakeArgs {
-    /// Mesh (.obj .stl .ply .gltf .glb, or tetrahedra .msh .node .ele .vtk .vtu .mesh) or scene of one body (.toml)
+    /// Mesh (.obj .stl .ply .gltf .glb, or tetrahedra .msh .node .ele .mesh) or scene of one body (.toml)
     #[arg(
         value_name = "FILE",
         conflicts_with = "scene",
@@ -224,7 +224,7 @@ pub(crate) struct BakeArgs {
 
 #[derive(Args, Clone, Debug)]
 pub(crate) struct ModesArgs {
-    /// Baked body (.frangible), mesh (.obj .stl .ply .gltf .glb, or tetrahedra .msh .node .ele .vtk .vtu .mesh) or scene of one body (.toml)
+    /// Baked body (.frangible), mesh (.obj .stl .ply .gltf .glb, or tetrahedra .msh .node .ele .mesh) or scene of one body (.toml)
     #[arg(
         value_name = "FILE",
         conflicts_with = "scene",

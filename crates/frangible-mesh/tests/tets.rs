@@ -3,9 +3,11 @@
 mod slivers;
 mod write;
 
-use frangible_mesh::{TetFormat, TetInput, TetInputError, mend_tets, parse_tetgen, parse_tets};
-use miniz_oxide::deflate::compress_to_vec_zlib;
-use write::{As, ENDS, Kept, Sample, medit, msh2, msh4, sample, tetgen, vtk, vtu};
+use frangible_mesh::{
+    TetFormat, TetInput, TetInputError, mend_tets, parse_tetgen, parse_tets, read_tets,
+};
+use std::path::Path;
+use write::{As, ENDS, Sample, medit, msh2, msh4, sample, tetgen};
 
 fn read_tetgen([node, ele, face]: &[String; 3]) -> TetInput {
     parse_tetgen(node.as_bytes(), ele.as_bytes(), Some(face.as_bytes())).unwrap()
@@ -30,26 +32,6 @@ fn variants(s: &Sample) -> Vec<(String, TetInput)> {
             msh2(s, coding, 40, 3),
         );
         add(format!("msh 4.1 {name}"), TetFormat::Msh, msh4(s, coding));
-    }
-    for binary in [false, true] {
-        for fifth in [false, true] {
-            let name = format!("vtk, binary: {binary}, version 5: {fifth}");
-            add(name, TetFormat::Vtk, vtk(s, binary, fifth));
-        }
-    }
-    let pack: fn(&[u8]) -> Vec<u8> = |bytes| compress_to_vec_zlib(bytes, 6);
-    for kept in [
-        Kept::Ascii,
-        Kept::Inline,
-        Kept::AppendedRaw,
-        Kept::AppendedBase64,
-    ] {
-        for wide in [false, true] {
-            for pack in [None, Some(pack)] {
-                let name = format!("vtu {kept:?}, wide: {wide}, packed: {}", pack.is_some());
-                add(name, TetFormat::Vtu, vtu(s, kept, wide, pack));
-            }
-        }
     }
     add("medit".into(), TetFormat::Medit, medit(s));
     for first in [0, 1] {
@@ -124,8 +106,6 @@ fn text_in_utf16_gives_the_same_mesh() {
     for is_big in [false, true] {
         for (format, bytes) in [
             (TetFormat::Msh, msh2(&s, As::Text, 1, 1)),
-            (TetFormat::Vtk, vtk(&s, false, false)),
-            (TetFormat::Vtu, vtu(&s, Kept::Inline, false, None)),
             (TetFormat::Medit, medit(&s)),
         ] {
             let read = parse_tets(format, &wide(&bytes, is_big)).unwrap();
@@ -164,16 +144,11 @@ fn a_mended_body_has_the_volume_of_the_file_and_groups_of_its_nodes() {
 #[test]
 fn a_file_cut_anywhere_is_an_error_or_a_sound_mesh() {
     let s = sample([1, 1, 1], true);
-    let pack: fn(&[u8]) -> Vec<u8> = |bytes| compress_to_vec_zlib(bytes, 6);
     let files = [
         (TetFormat::Msh, msh2(&s, As::Text, 1, 1)),
         (TetFormat::Msh, msh2(&s, As::Little, 1, 1)),
         (TetFormat::Msh, msh4(&s, As::Text)),
         (TetFormat::Msh, msh4(&s, As::Big)),
-        (TetFormat::Vtk, vtk(&s, false, false)),
-        (TetFormat::Vtk, vtk(&s, true, true)),
-        (TetFormat::Vtu, vtu(&s, Kept::Inline, false, Some(pack))),
-        (TetFormat::Vtu, vtu(&s, Kept::AppendedRaw, true, None)),
         (TetFormat::Medit, medit(&s)),
     ];
     for (format, bytes) in files {
@@ -207,10 +182,6 @@ fn counts_beyond_the_file_are_refused_without_the_memory_for_them() {
         (
             TetFormat::Msh,
             "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n9999999999 9 9 9\n3 1 0 99999999999\n1 2",
-        ),
-        (
-            TetFormat::Vtk,
-            "# vtk DataFile Version 3.0\nt\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS 9999999999999999 double\n",
         ),
         (
             TetFormat::Medit,
@@ -251,24 +222,6 @@ fn refusals_name_the_culprit_and_the_mend() {
             refused(TetFormat::Medit, "MeshVersionFormatted 2\nDimension 2\n"),
             "dimension 2",
         ),
-        (
-            refused(
-                TetFormat::Vtk,
-                "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\n",
-            ),
-            "UNSTRUCTURED_GRID",
-        ),
-        (
-            refused(
-                TetFormat::Vtu,
-                "<VTKFile type=\"UnstructuredGrid\" compressor=\"vtkLZ4DataCompressor\">",
-            ),
-            "LZ4",
-        ),
-        (
-            refused(TetFormat::Vtu, "<VTKFile type=\"PolyData\">"),
-            "PolyData",
-        ),
     ];
     for (message, part) in cases {
         assert!(message.contains(part), "{message} lacks “{part}”");
@@ -277,6 +230,17 @@ fn refusals_name_the_culprit_and_the_mend() {
         .unwrap_err()
         .to_string();
     assert!(message.contains(".node, line 2"), "{message}");
+}
+
+#[test]
+fn a_vtk_file_is_refused_with_the_command_that_converts_it() {
+    for name in ["part.vtu", "part.VTK"] {
+        let message = read_tets(Path::new(name)).unwrap_err().to_string();
+        assert!(
+            message.contains(&format!("meshio convert {name}")),
+            "{message}"
+        );
+    }
 }
 
 fn plain(counts: [usize; 3]) -> TetInput {

@@ -59,7 +59,7 @@ pub enum SceneError {
     },
     /// A file of unknown kind.
     #[error(
-        "the file extension of `{}` is unknown; give a mesh (.obj, .stl, .ply, .gltf, .glb), tetrahedra (.msh, .node, .ele, .vtk, .vtu, .mesh), a baked body (.frangible) or a scene (.toml)",
+        "the file extension of `{}` is unknown; give a mesh (.obj, .stl, .ply, .gltf, .glb), tetrahedra (.msh, .node, .ele, .mesh), a baked body (.frangible) or a scene (.toml)",
         .0.display()
     )]
     UnknownKind(PathBuf),

@@ -40,7 +40,7 @@ impl Files {
                 FileKind::Mesh if FileKind::of(path)? == FileKind::Asset => {
                     "this is a baked body, not a mesh; in a scene file, give it as `asset`".into()
                 }
-                FileKind::Mesh => "this is not a mesh (.obj, .stl, .ply, .gltf, .glb, or tetrahedra: .msh, .node, .ele, .vtk, .vtu, .mesh)".into(),
+                FileKind::Mesh => "this is not a mesh (.obj, .stl, .ply, .gltf, .glb, or tetrahedra: .msh, .node, .ele, .mesh)".into(),
                 FileKind::Asset => "this is not a baked body (.frangible)".into(),
                 FileKind::Scene => "this is not a scene (.toml)".into(),
             },

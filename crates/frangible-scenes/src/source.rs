@@ -34,7 +34,7 @@ pub enum BodySource {
     },
     /// A mesh file.
     Mesh {
-        /// The file: .obj, .stl, .ply, .gltf or .glb; or tetrahedra, .msh, .node with .ele, .vtk, .vtu or .mesh.
+        /// The file: .obj, .stl, .ply, .gltf or .glb; or tetrahedra, .msh, .node with .ele, or .mesh.
         path: PathBuf,
         /// Longest side, m; without it the file's unit is the metre.
         size: Option<f64>,
@@ -131,7 +131,13 @@ impl FileKind {
             Some("obj" | "stl" | "ply" | "gltf" | "glb") => Ok(Self::Mesh),
             Some("frangible") => Ok(Self::Asset),
             Some("toml") => Ok(Self::Scene),
-            _ => Err(SceneError::UnknownKind(path.to_path_buf())),
+            _ => Err(match frangible_mesh::ReadError::of_vtk(path) {
+                Some(error) => SceneError::File {
+                    path: path.to_path_buf(),
+                    problem: error.to_string(),
+                },
+                None => SceneError::UnknownKind(path.to_path_buf()),
+            }),
         }
     }
 }

@@ -59,8 +59,6 @@ pub fn read_tets(bytes: &[u8]) {
     };
     let read = match choice {
         b'g' => parse_tets(TetFormat::Msh, bytes),
-        b'l' => parse_tets(TetFormat::Vtk, bytes),
-        b'x' => parse_tets(TetFormat::Vtu, bytes),
         b'm' => parse_tets(TetFormat::Medit, bytes),
         _ => {
             // Three files in one, parted by bars.

@@ -1,7 +1,7 @@
 //! Errors of reading a mesh file.
 
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
@@ -108,9 +108,17 @@ pub enum ReadError {
         /// Largest number allowed.
         limit: u64,
     },
+    /// A VTK file.
+    #[error(
+        "VTK files are not read; convert this one, for example with meshio: meshio convert {name} mesh.msh"
+    )]
+    Vtk {
+        /// File name.
+        name: String,
+    },
     /// Neither a surface nor tetrahedra of a known format.
     #[error(
-        "cannot determine the format of {name}; known formats for tetrahedra are .msh, .node with .ele, .vtk, .vtu and .mesh"
+        "cannot determine the format of {name}; known formats for tetrahedra are .msh, .node with .ele, and .mesh"
     )]
     UnknownTetFormat {
         /// File name, or a description of the input.
@@ -130,6 +138,18 @@ pub enum ReadError {
 }
 
 impl ReadError {
+    /// Returns the error for a VTK file, by its extension; `None` for other files.
+    #[must_use]
+    pub fn of_vtk(path: &Path) -> Option<Self> {
+        let extension = path.extension()?.to_str()?;
+        let is_vtk = ["vtk", "vtu"]
+            .iter()
+            .any(|e| extension.eq_ignore_ascii_case(e));
+        is_vtk.then(|| Self::Vtk {
+            name: path.display().to_string(),
+        })
+    }
+
     pub(crate) fn malformed(place: impl Into<String>, problem: impl Into<String>) -> Self {
         Self::Malformed {
             place: place.into(),

@@ -1,20 +1,15 @@
 //! Files of tetrahedra to [`TetInput`].
 //!
-//! Gmsh's MSH, TetGen's three files, both formats of VTK and Medit's .mesh. The crates for them are stale, read one
+//! Gmsh's MSH, TetGen's three files and Medit's .mesh. The crates for them are stale, read one
 //! version each, or reserve what a header asks for. Nothing here reserves memory that the file does not fill.
 
 mod builder;
 pub(crate) mod cursor;
-mod data_array;
 mod medit;
 mod msh;
 mod msh2;
 mod msh4;
 mod tetgen;
-mod vtk;
-mod vtk_cells;
-mod vtu;
-mod xml;
 
 use std::path::Path;
 
@@ -30,10 +25,6 @@ pub enum TetFormat {
     Msh,
     /// TetGen's .node, .ele and .face.
     TetGen,
-    /// VTK's legacy format, text and binary.
-    Vtk,
-    /// VTK's XML format of unstructured grids.
-    Vtu,
     /// Medit's .mesh, text.
     Medit,
 }
@@ -45,8 +36,6 @@ impl TetFormat {
         match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
             "msh" => Some(Self::Msh),
             "node" | "ele" => Some(Self::TetGen),
-            "vtk" => Some(Self::Vtk),
-            "vtu" => Some(Self::Vtu),
             "mesh" => Some(Self::Medit),
             _ => None,
         }
@@ -68,9 +57,11 @@ pub fn read_tets(path: &Path) -> Result<TetInput, ReadError> {
             parse_tetgen(&node, &ele, face.as_deref())
         }
         Some(format) => parse_tets(format, &read_file(path)?),
-        None => Err(ReadError::UnknownTetFormat {
-            name: path.display().to_string(),
-        }),
+        None => Err(
+            ReadError::of_vtk(path).unwrap_or_else(|| ReadError::UnknownTetFormat {
+                name: path.display().to_string(),
+            }),
+        ),
     }
 }
 
@@ -86,8 +77,6 @@ pub fn parse_tets(format: TetFormat, bytes: &[u8]) -> Result<TetInput, ReadError
     let bytes = &in_utf8(bytes)[..];
     match format {
         TetFormat::Msh => msh::parse(bytes),
-        TetFormat::Vtk => vtk::parse(bytes),
-        TetFormat::Vtu => vtu::parse(bytes),
         TetFormat::Medit => medit::parse(bytes),
         TetFormat::TetGen => Err(ReadError::Unsupported(
             "its .node and its .ele together".into(),
