@@ -11,6 +11,7 @@ use crate::agree::features_agree;
 use crate::bevy;
 use crate::blender::blender;
 use crate::book;
+use crate::c;
 use crate::check_output::check_output;
 use crate::command::{
     Result, announced, cargo, is_skipped, output, read, root, run_keeping, shown, skipped,
@@ -123,6 +124,11 @@ const STEPS: &[Step] = &[
         "npm",
         &[CORE, &["apps/npm", "xtask/src/web", "xtask/web-pack"]],
         web::package,
+    ),
+    by_hand(
+        "c",
+        &[CORE, &["apps/c", "apps/npm", "xtask/src/c.rs"]],
+        || c::library(&c::Header::Compare),
     ),
     by_hand(
         "python",

@@ -4,6 +4,7 @@ mod agree;
 mod bevy;
 mod blender;
 mod book;
+mod c;
 mod check_output;
 mod ci;
 mod command;
@@ -41,6 +42,7 @@ cargo xtask web [--out DIR]   build the web viewer as a static folder [default: 
 cargo xtask web-test          build the web viewer, and test scenes and a mesh in Chromium with software rendering
 cargo xtask web-bits          run scenes in the simulation module of the web viewer in Node, and compare every bit with a native run
 cargo xtask npm               build the npm package, install it in an empty project, and test it in Node and in Chromium
+cargo xtask c [--write]       build the library for C and C++, install it in target/c/install, and try it; --write makes its header anew
 cargo xtask python            build the Python wheel, and test it in a virtual environment
 cargo xtask blender           test the Blender extension with that wheel in the downloaded `bpy` module, without a window
 cargo xtask semver [REV]      compare the public interface of the published crates with the last version, or with another commit
@@ -107,6 +109,8 @@ fn run(words: &[&str]) -> Result {
                 "`{seconds}` is not a whole number of seconds from 1, as in `cargo xtask fuzz 60`"
             )),
         },
+        ["c"] => c::library(&c::Header::Compare).map(drop),
+        ["c", "--write"] => c::library(&c::Header::Write).map(drop),
         ["python"] => python::wheel().map(drop),
         ["blender"] => blender::blender().map(drop),
         ["semver"] => semver::semver(None).map(drop),
