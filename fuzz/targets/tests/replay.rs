@@ -41,6 +41,7 @@ macro_rules! targets {
 
 targets! {
     body_state
+    c_interface
     impact
     read_asset
     read_gltf

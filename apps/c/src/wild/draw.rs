@@ -53,8 +53,10 @@ impl Wild<'_> {
             return u64::from(self.byte()) << 40;
         }
         // The last one is the likeliest to be of use.
-        let back = usize::from(self.byte()) % ids.len();
-        ids[ids.len() - 1 - back]
+        match self.byte() {
+            usual if usual < 192 => ids[ids.len() - 1],
+            other => ids[usize::from(other) % ids.len()],
+        }
     }
 
     pub(super) fn breakable(&mut self) -> frangible_breakable {
