@@ -125,11 +125,9 @@ const STEPS: &[Step] = &[
         &[CORE, &["apps/npm", "xtask/src/web", "xtask/web-pack"]],
         web::package,
     ),
-    by_hand(
-        "c",
-        &[CORE, &["apps/c", "apps/npm", "xtask/src/c.rs"]],
-        || c::library(&c::Header::Compare),
-    ),
+    by_hand("c", &[CORE, &["apps/c", "apps/npm", "xtask/src/c"]], || {
+        c::library(&c::Wish::Try)
+    }),
     by_hand(
         "python",
         &[CORE, SCENES, &["apps/frangible", "apps/npm", "apps/python"]],

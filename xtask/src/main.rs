@@ -42,7 +42,9 @@ cargo xtask web [--out DIR]   build the web viewer as a static folder [default: 
 cargo xtask web-test          build the web viewer, and test scenes and a mesh in Chromium with software rendering
 cargo xtask web-bits          run scenes in the simulation module of the web viewer in Node, and compare every bit with a native run
 cargo xtask npm               build the npm package, install it in an empty project, and test it in Node and in Chromium
-cargo xtask c [--write]       build the library for C and C++, install it in target/c/install, and try it; --write makes its header anew
+cargo xtask c [--write | --engines]
+                              build the library for C and C++, install it in target/c/install, and try it; --write makes its header
+                              anew; --engines plays scenes in Bullet and writes their section of docs/engines.md
 cargo xtask python            build the Python wheel, and test it in a virtual environment
 cargo xtask blender           test the Blender extension with that wheel in the downloaded `bpy` module, without a window
 cargo xtask semver [REV]      compare the public interface of the published crates with the last version, or with another commit
@@ -109,8 +111,9 @@ fn run(words: &[&str]) -> Result {
                 "`{seconds}` is not a whole number of seconds from 1, as in `cargo xtask fuzz 60`"
             )),
         },
-        ["c"] => c::library(&c::Header::Compare).map(drop),
-        ["c", "--write"] => c::library(&c::Header::Write).map(drop),
+        ["c"] => c::library(&c::Wish::Try).map(drop),
+        ["c", "--write"] => c::library(&c::Wish::Header).map(drop),
+        ["c", "--engines"] => c::library(&c::Wish::Engines).map(drop),
         ["python"] => python::wheel().map(drop),
         ["blender"] => blender::blender().map(drop),
         ["semver"] => semver::semver(None).map(drop),

@@ -31,7 +31,7 @@ int main(int count, char **words) {
     printf("%zu fragments, %.3g J spent on cracks\n", report.fragments, report.fracture_energy);
 
     enum { MOST = 1000 };
-    static frangible_motion motions[MOST];
+    static frangible_motion motions[MOST]; /* at rest while the pane holds */
     const frangible_pose pose = {.rotation = {0, 0, 0, 1}};
     const frangible_motion still = {{0, 0, 0}, {0, 0, 0}};
     frangible_motion after;
@@ -45,7 +45,8 @@ int main(int count, char **words) {
         frangible_hulls hulls = {.size = sizeof hulls};
         if (frangible_outcome_solid(outcome, k, &solid) || frangible_outcome_geometry(outcome, k, &mesh) ||
             frangible_outcome_hulls(outcome, k, &hulls)) return failed("fragment");
-        printf("%2zu: %6.2f g, %zu triangles, %zu convex parts, %6.2f m/s\n", k, 1e3 * solid.mass, mesh.indices_count / 3, hulls.count, -motions[k].linear[2]);
+        printf("%2zu: %6.2f g, %zu triangles, %zu convex parts, %6.2f m/s\n", k, 1e3 * solid.mass, mesh.indices_count / 3, hulls.count,
+               -motions[k].linear[2]);
     }
     frangible_outcome_free(outcome);
     frangible_body_free(body);

@@ -311,6 +311,14 @@ typedef struct {
    * Inertia about the centre, kg·m², in the axes of that frame.
    */
   double inertia[9];
+  /**
+   * Principal moments of inertia, kg·m², for engines that take these three.
+   */
+  double moments[3];
+  /**
+   * The rotation from the principal axes to those of that frame.
+   */
+  double axes[4];
 } frangible_solid;
 
 /**
@@ -433,6 +441,10 @@ typedef struct {
    * Energy spent on cracks, J.
    */
   double fracture_energy;
+  /**
+   * Sum of the impulses of all contacts on the body along their normals, N·s, in its frame.
+   */
+  double impulse[3];
   /**
    * Area of the cracks, one side, m².
    */

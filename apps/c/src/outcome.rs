@@ -99,6 +99,8 @@ pub unsafe extern "C" fn frangible_outcome_report(
         let out = unsafe { Form::new(out, "out") }?;
         let came = OUTCOMES.get(outcome.id)?;
         let report = &came.fracture.report;
+        let pushes = report.contacts.iter();
+        let impulse: DVec3 = pushes.map(|c| c.normal.as_dvec3() * c.impulse).sum();
         out.fill(&frangible_report {
             broke: came.body.is_some().into(),
             fragments: came.fracture.fragments.len(),
@@ -111,6 +113,7 @@ pub unsafe extern "C" fn frangible_outcome_report(
             strength: report.strength,
             approach_energy: report.approach_energy,
             fracture_energy: report.fracture_energy,
+            impulse: impulse.to_array(),
             crack_area: report.crack_area,
             first_crack_time: report.first_crack_time.unwrap_or(f64::NAN),
             seconds: report.timings.total(),

@@ -154,6 +154,10 @@ pub struct frangible_solid {
     pub centre: [f64; 3],
     /// Inertia about the centre, kg·m², in the axes of that frame.
     pub inertia: [f64; 9],
+    /// Principal moments of inertia, kg·m², for engines that take these three.
+    pub moments: [f64; 3],
+    /// The rotation from the principal axes to those of that frame.
+    pub axes: [f64; 4],
 }
 
 /// A mesh to draw, in the frame of the body or of the fragment: its origin is the centre of mass. The arrays are valid while the handle is.
@@ -224,6 +228,8 @@ pub struct frangible_report {
     pub approach_energy: f64,
     /// Energy spent on cracks, J.
     pub fracture_energy: f64,
+    /// Sum of the impulses of all contacts on the body along their normals, N·s, in its frame.
+    pub impulse: [f64; 3],
     /// Area of the cracks, one side, m².
     pub crack_area: f64,
     /// Time of the first crack since the start of the contact, s; NaN if there is none.

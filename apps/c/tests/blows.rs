@@ -2,7 +2,7 @@
 
 use std::ptr::{null, null_mut};
 
-use frangible::glam::{DMat3, DVec3, Vec3};
+use frangible::glam::{DMat3, DQuat, DVec3, Vec3};
 use frangible::{Asset, Contact, FractureConfig, Material, Outcome, Striker, impact};
 use frangible_c::*;
 use frangible_js::plain;
@@ -155,6 +155,27 @@ fn fragments_are_the_body_with_closed_surfaces() {
             "{volume} {}",
             solid.volume
         );
+    }
+    sound(frangible_outcome_free(outcome));
+    sound(frangible_body_free(body));
+}
+
+#[test]
+fn principal_moments_and_axes_are_the_inertia() {
+    let body = body(1);
+    let outcome = hit(body, &[at_middle(12.0)], &ball(12.0));
+    for k in 0..report(outcome).fragments {
+        let mut solid = frangible_solid::default();
+        sound(unsafe { frangible_outcome_solid(outcome, k, &mut solid) });
+        let axes = DMat3::from_quat(DQuat::from_array(solid.axes));
+        let moments = DMat3::from_diagonal(DVec3::from_array(solid.moments));
+        let (again, whole) = (
+            axes * moments * axes.transpose(),
+            DMat3::from_cols_array(&solid.inertia),
+        );
+        let largest = solid.moments.into_iter().fold(0.0, f64::max);
+        // A few roundings of f64.
+        assert!(again.abs_diff_eq(whole, 1e-13 * largest), "{again} {whole}");
     }
     sound(frangible_outcome_free(outcome));
     sound(frangible_body_free(body));

@@ -70,9 +70,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     let page = page::page(&played);
     if std::env::args().any(|word| word == "--write") {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/engines.md");
+        // The section about Bullet, which `cargo xtask c --engines` writes, stays.
+        let kept = std::fs::read_to_string(&path).unwrap_or_default();
+        let kept = kept.find("\n## Bullet\n").map_or("", |at| &kept[at..]);
         // Whole under its name, or not at all.
         let draft = path.with_extension("md.new");
-        std::fs::write(&draft, page)?;
+        std::fs::write(&draft, page + kept)?;
         std::fs::rename(&draft, &path)?;
     } else {
         print!("{page}");

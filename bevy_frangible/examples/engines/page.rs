@@ -109,10 +109,11 @@ fn conservation(played: &[(Scene, Played)], engine: usize) -> (f64, f64) {
 /// The whole page.
 pub fn page(played: &[(Scene, Played)]) -> String {
     let mut out = String::from(
-        "# Two physics engines\n\nThe same bodies, strikers and speeds in Rapier 0.36 (`frangible-rapier`, which undoes the step of a break and takes it \
+        "# Three physics engines\n\nThe same bodies, strikers and speeds in Rapier 0.36 (`frangible-rapier`, which undoes the step of a break and takes it \
          again) and in Avian 0.7\n(`bevy_frangible`, which asks before the contacts are solved), 240 steps per second, a hundred seeds each: means with \
          their standard errors. The\nfracture is the same library in both; what differs is where and when an engine says that bodies touch, \
-         and how the pieces meet the striker\nafterwards. Made by `cargo run --release --example engines -- --write` in `bevy_frangible`.\n\n",
+         and how the pieces meet the striker\nafterwards. Made by `cargo run --release --example engines -- --write` in `bevy_frangible`. The third \
+         engine is [Bullet](#bullet), at the end.\n\n",
     );
     for (s, outcomes) in played {
         scene(&mut out, s, outcomes);

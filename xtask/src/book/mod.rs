@@ -10,6 +10,7 @@
 //! | any with `file=NAME` | It is saved under that name in the page's folder. |
 //! | `rust` | It is an example of a package that a command of the page runs, or what `cargo xtask bevy` runs. |
 //! | `html`, `js` | It is a page that `cargo xtask npm` tries. |
+//! | `c` | It is a program that `cargo xtask c` runs. |
 //! | `sh` | It is a chore that is a step of `cargo xtask ci --all`, or it installs something. |
 
 mod html;

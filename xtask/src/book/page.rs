@@ -122,6 +122,7 @@ impl Page {
                     commands.iter().any(|command| command.contains(&words))
                 }),
                 ("html" | "js", Some(file)) => file.starts_with("apps/npm/pages/"),
+                ("c", Some(file)) => file.starts_with("apps/c/examples/"),
                 _ => false,
             };
             if !runs {

@@ -1,6 +1,8 @@
 //! The library for C and C++: its header, made by cbindgen and checked in; the shared and the static library, installed in a folder with files for
 //! pkg-config and CMake; and programs that are compiled against that folder and run.
 
+mod bullet;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -20,30 +22,38 @@ const SANITIZERS: &str = "-fsanitize=address,undefined";
 /// A baked body that the repository has.
 const PANE: &str = "crates/frangible/tests/bodies/pane.frangible";
 
-/// What is done with the header.
+/// What is wanted besides the installed library.
 #[derive(PartialEq)]
-pub(crate) enum Header {
-    Compare,
-    Write,
+pub(crate) enum Wish {
+    /// All trials, with the header that is checked in.
+    Try,
+    /// All trials, with a new header.
+    Header,
+    /// The section of docs/engines.md.
+    Engines,
 }
 
-/// Builds and installs the library in `target/c/install`, tries it, and returns the lines that sum it up.
-pub(crate) fn library(header: &Header) -> Result<Vec<String>> {
+/// Builds and installs the library in `target/c/install`, does what is wanted, and returns the lines that sum it up.
+pub(crate) fn library(wish: &Wish) -> Result<Vec<String>> {
     let folder = target().join("c");
     fs::create_dir_all(&folder)
         .map_err(|error| format!("`{}` cannot be made: {error}", folder.display()))?;
-    self::header(&folder, header)?;
+    header(&folder, wish)?;
     let built = Built::new()?;
     let prefix = folder.join("install");
     built.install(&prefix)?;
+    if *wish == Wish::Engines {
+        return bullet::section(&folder, &prefix);
+    }
     let mut lines = built.about(&prefix)?;
     lines.extend(c_programs(&folder, &prefix)?);
     lines.extend(with_cmake(&folder, &prefix)?);
+    lines.extend(bullet::example(&folder, &prefix)?);
     Ok(lines)
 }
 
 /// Makes the header, and compares the one that is checked in, or writes it.
-fn header(folder: &Path, wanted: &Header) -> Result {
+fn header(folder: &Path, wish: &Wish) -> Result {
     let version = output(&mut cbindgen(&["--version"])).unwrap_or_default();
     if !String::from_utf8_lossy(&version).contains(CBINDGEN_VERSION) {
         let install = ["install", "cbindgen", "--locked", "--version"];
@@ -53,7 +63,7 @@ fn header(folder: &Path, wanted: &Header) -> Result {
     let kept = here.join("include/frangible.h");
     let mut make = cbindgen(&["--quiet", "--config", "cbindgen.toml", "--output"]);
     announced(make.arg(&made).arg(".").current_dir(&here))?;
-    if *wanted == Header::Write {
+    if *wish == Wish::Header {
         return copy(&made, &kept);
     }
     if read(&made)? == read(&kept)? {

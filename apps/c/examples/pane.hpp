@@ -1,0 +1,20 @@
+// The scene that bullet.cpp and engines.cpp have in common.
+#pragma once
+#include "bullet.hpp"
+
+/// Adds a body that is free, and a steel ball of 130 g that flies at it along -z, a little off its middle. Returns the ball.
+inline Thing *ball_at(Game &game, frangible_breakable kind, uint64_t seed, double speed) {
+    const auto solid = ask<frangible_solid>(frangible_breakable_solid, kind);
+    const auto hulls = ask<frangible_hulls>(frangible_breakable_hulls, kind);
+    Thing *body = game.add(solid, hulls, material("glass"), btTransform::getIdentity(), frangible_motion());
+    body->body = ask<frangible_body>(frangible_body_new, kind, seed);
+    const btScalar radius = btScalar(0.0158);
+    frangible_striker steel = material("steel");
+    steel.radius = radius;
+    std::unique_ptr<Thing> ball(new Thing(steel, new btSphereShape(radius)));
+    const double mass = 7850 * 4.0 / 3.0 * SIMD_PI * radius * radius * radius;
+    btVector3 moments;
+    ball->shape->calculateLocalInertia(btScalar(mass), moments);
+    const btTransform at(btQuaternion::getIdentity(), btVector3(btScalar(0.01), btScalar(0.005), btScalar(0.1)));
+    return game.add(std::move(ball), mass, moments, at, {{0, 0, -speed}, {0, 0, 0}});
+}
