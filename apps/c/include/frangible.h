@@ -212,7 +212,7 @@ typedef struct {
   double speed;
   /**
    * Friction on the body per newton of normal force: the direction in which the striker drags the surface, times the coefficient of friction.
-   * Its part along the normal counts for nothing.
+   * Its part along the normal counts for nothing. It counts in the blow on the body, not in `frangible_outcome_motions`.
    */
   double friction[3];
   /**

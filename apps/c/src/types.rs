@@ -110,7 +110,7 @@ pub struct frangible_contact {
     /// Speed of approach along the normal just before the blow, m/s.
     pub speed: f64,
     /// Friction on the body per newton of normal force: the direction in which the striker drags the surface, times the coefficient of friction.
-    /// Its part along the normal counts for nothing.
+    /// Its part along the normal counts for nothing. It counts in the blow on the body, not in `frangible_outcome_motions`.
     pub friction: [f64; 3],
     /// Impulse of a script's push, N·s.
     pub impulse: [f64; 3],

@@ -7,7 +7,9 @@ use frangible::{Asset, Contact, FractureConfig, Material, Outcome, Striker, impa
 use frangible_c::*;
 use frangible_js::plain;
 
-use crate::{BLOCK, PANE, at_middle, ball, body, body_of, hit, kind, masses, report, sound, text};
+use crate::{
+    BLOCK, PANE, at_middle, ball, body, body_of, hit, kind, masses, pane, report, sound, text,
+};
 
 const AT_ORIGIN: frangible_pose = frangible_pose {
     position: [0.0; 3],
@@ -252,4 +254,46 @@ fn a_piece_breaks_again() {
     ));
     let status = unsafe { frangible_outcome_piece(outcome, last + 1, &mut piece) };
     assert_eq!(status, frangible_status::Range);
+}
+
+#[test]
+fn threads_break_bodies_of_one_kind_alike_while_others_free_theirs() {
+    let kind = pane();
+    let broken = |_: usize| {
+        let mut body = frangible_body::default();
+        sound(unsafe { frangible_body_new(kind, 3, &mut body) });
+        let outcome = hit(body, &[at_middle(12.0)], &ball(12.0));
+        let masses = masses(outcome);
+        sound(frangible_outcome_free(outcome));
+        sound(frangible_body_free(body));
+        masses
+    };
+    let alone = broken(0);
+    let broken = &broken;
+    std::thread::scope(|scope| {
+        let threads: Vec<_> = (0..4).map(|k| scope.spawn(move || broken(k))).collect();
+        for thread in threads {
+            assert_eq!(thread.join().expect("no panic"), alone);
+        }
+    });
+    sound(frangible_breakable_free(kind));
+}
+
+#[test]
+fn friction_counts_and_its_part_along_the_normal_does_not() {
+    let body = body(1);
+    let with = |friction| {
+        let contact = frangible_contact {
+            friction,
+            ..at_middle(12.0)
+        };
+        let outcome = hit(body, &[contact], &ball(12.0));
+        let masses = masses(outcome);
+        sound(frangible_outcome_free(outcome));
+        masses
+    };
+    let plain = with([0.0; 3]);
+    assert_eq!(with([0.0, 0.0, 0.5]), plain);
+    assert_ne!(with([0.5, 0.0, 0.0]), plain);
+    sound(frangible_body_free(body));
 }
