@@ -44,7 +44,7 @@ cargo xtask web-bits          run scenes in the simulation module of the web vie
 cargo xtask npm               build the npm package, install it in an empty project, and test it in Node and in Chromium
 cargo xtask c [--write | --engines]
                               build the library for C and C++, install it in target/c/install, and try it; --write makes its header
-                              anew; --engines plays scenes in Bullet and writes their section of docs/engines.md
+                              anew; --engines plays scenes in Bullet and writes their section and pictures of docs/engines.md
 cargo xtask python            build the Python wheel, and test it in a virtual environment
 cargo xtask blender           test the Blender extension with that wheel in the downloaded `bpy` module, without a window
 cargo xtask semver [REV]      compare the public interface of the published crates with the last version, or with another commit

@@ -1,5 +1,5 @@
 // A ball goes through a pane, and a glass falls on stone: `bullet pane.frangible glass.frangible`.
-#include "pane.hpp"
+#include "scenes.hpp"
 #include <cstdio>
 
 static const btScalar STEP = btScalar(1.0 / 240);
@@ -40,13 +40,7 @@ static bool run(const char *pane_file, const char *glass_file) {
     {
         std::printf("a glass falls 1.2 m on stone\n");
         Game game(9.81);
-        std::unique_ptr<Thing> floor(new Thing(material("stone"), new btStaticPlaneShape(btVector3(0, 1, 0), 0)));
-        game.add(std::move(floor), 0, btVector3(0, 0, 0), btTransform::getIdentity(), frangible_motion());
-        const auto solid = ask<frangible_solid>(frangible_breakable_solid, glass);
-        const auto hulls = ask<frangible_hulls>(frangible_breakable_hulls, glass);
-        const btQuaternion tilted = btQuaternion(btVector3(0, 0, 1), btScalar(0.6)) * btQuaternion(btVector3(1, 0, 0), -SIMD_HALF_PI);
-        const btTransform at(tilted, btVector3(0, btScalar(1.2), 0));
-        game.add(solid, hulls, material("glass"), at, frangible_motion())->body = ask<frangible_body>(frangible_body_new, glass, uint64_t(1));
+        glass_falls(game, glass, 1, 1.2);
         kept &= play(game, true);
     }
     return kept;

@@ -15,6 +15,7 @@ inline btQuaternion turn(const double *q) { return btQuaternion(btScalar(q[0]), 
 struct Thing { // a rigid body, in its principal axes, which `axes` turns to the frame that it was baked in
     frangible_striker surface;
     frangible::Body body; // none if it cannot break
+    frangible_geometry drawn = frangible::sized<frangible_geometry>();
     btTransform axes = btTransform::getIdentity();
     std::unique_ptr<btCollisionShape> shape;
     std::vector<std::unique_ptr<btConvexHullShape>> parts;
@@ -32,6 +33,7 @@ struct Game {
     btSequentialImpulseConstraintSolver solver;
     btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
     std::vector<std::unique_ptr<Thing>> things;
+    std::vector<frangible::Outcome> outcomes; // own the meshes of the pieces
     frangible_report report = frangible::sized<frangible_report>(); // of the last break
     btVector3 impulse{0, 0, 0};                                     // and that of the blow on the body, N s
 
@@ -137,8 +139,8 @@ struct Game {
         frangible_pose pose;
         put(at.getOrigin(), pose.position);
         put(at.getRotation(), pose.rotation, 4);
-        const frangible::Outcome outcome = ask<frangible_outcome>(frangible_body_impact, blow.body->body, blow.contacts.data(),
-                                                                  blow.contacts.size(), by.data(), by.size(), &pose);
+        frangible::Outcome outcome = ask<frangible_outcome>(frangible_body_impact, blow.body->body, blow.contacts.data(),
+                                                            blow.contacts.size(), by.data(), by.size(), &pose);
         const auto found = ask<frangible_report>(frangible_outcome_report, outcome);
         if (found.broke) { // of several strikers that give way, only the first is moved here
             std::vector<frangible_pose> poses(found.fragments);
@@ -155,9 +157,11 @@ struct Game {
             for (size_t k = 0; k < found.fragments; k++) {
                 const auto solid = ask<frangible_solid>(frangible_outcome_solid, outcome, k);
                 const auto hulls = ask<frangible_hulls>(frangible_outcome_hulls, outcome, k);
-                add(solid, hulls, blow.body->surface, btTransform(at.getRotation(), vec(poses[k].position)), motions[k]);
+                Thing *piece = add(solid, hulls, blow.body->surface, btTransform(at.getRotation(), vec(poses[k].position)), motions[k]);
+                piece->drawn = ask<frangible_geometry>(frangible_outcome_geometry, outcome, k);
             }
             remove(blow.body);
+            outcomes.push_back(std::move(outcome));
         }
     }
     btVector3 momentum() const { // of all that moves, N s
