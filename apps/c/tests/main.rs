@@ -9,6 +9,7 @@
 mod blows;
 mod border;
 mod header;
+mod outcomes;
 
 use std::ffi::CStr;
 use std::ptr::null;
