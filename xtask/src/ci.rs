@@ -22,6 +22,7 @@ use crate::fuzz::{USUAL_SECONDS, fuzz};
 use crate::leaves;
 use crate::packages::package_lists;
 use crate::passed;
+use crate::platforms::platforms;
 use crate::python;
 use crate::semver::semver;
 use crate::test::{self, WITH_WINDOW, tested_program};
@@ -108,6 +109,7 @@ const STEPS: &[Step] = &[
     by_hand("semver", &[ALL], || semver(None)),
     by_hand("features", &[ALL], features),
     by_hand("oldest rust", &[ALL], oldest_rust),
+    by_hand("platforms", &[ALL], platforms),
     by_hand("counts", &[CORE, &["crates/frangible-lab"]], || {
         counts(false)
     }),

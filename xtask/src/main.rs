@@ -15,7 +15,9 @@ mod glb;
 mod leaves;
 mod outcomes;
 mod packages;
+
 mod passed;
+mod platforms;
 mod python;
 mod semver;
 mod setup;
