@@ -9,6 +9,7 @@ pub mod distance;
 mod error;
 mod input;
 mod mend_tets;
+mod parts;
 pub mod quality;
 #[cfg(feature = "mesh-io")]
 mod read;
@@ -32,6 +33,7 @@ pub use error::TetError;
 pub use glam;
 pub use input::{InputGroup, InputMaterial, InputMesh};
 pub use mend_tets::{MendedTets, NodeGroup, TetInputError, TetMend, mend_tets};
+pub use parts::{ChosenBody, ChosenParts, Gap, Part, PartChoice, PartError, Parts};
 #[cfg(feature = "mesh-io")]
 pub use read::{
     MOST_BYTES, MOST_TRIANGLES, MeshFormat, ReadError, did_you_mean, is_address, nearest_file,

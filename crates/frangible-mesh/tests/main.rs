@@ -6,6 +6,7 @@ mod common;
 mod gradient;
 mod hard;
 mod hard_bodies;
+mod parts;
 #[cfg(feature = "mesh-io")]
 mod read;
 mod repair;

@@ -14,7 +14,7 @@ struct Node {
 }
 
 /// A tree of boxes in plan over the triangles of closed shells.
-pub(super) struct Columns<'a> {
+pub(crate) struct Columns<'a> {
     positions: &'a [DVec3],
     triangles: &'a [[u32; 3]],
     shell_of: &'a [u32],
@@ -24,7 +24,7 @@ pub(super) struct Columns<'a> {
 
 impl<'a> Columns<'a> {
     /// Over the triangles named in `order`.
-    pub(super) fn new(
+    pub(crate) fn new(
         positions: &'a [DVec3],
         triangles: &'a [[u32; 3]],
         shell_of: &'a [u32],
@@ -81,7 +81,7 @@ impl<'a> Columns<'a> {
     }
 
     /// The shells around `p` with how often they wind around it, by shell.
-    pub(super) fn around(&self, p: DVec3) -> Vec<(u32, i32)> {
+    pub(crate) fn around(&self, p: DVec3) -> Vec<(u32, i32)> {
         let mut crossings: Vec<(u32, i32)> = Vec::new();
         let mut open = vec![0_u32];
         while let Some(index) = open.pop() {

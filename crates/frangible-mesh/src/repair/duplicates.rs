@@ -55,7 +55,7 @@ fn sorted(mut triangle: [u32; 3]) -> [u32; 3] {
 }
 
 /// Returns true if the vertices rise along the winding, up to where it starts.
-fn is_even([a, b, c]: [u32; 3]) -> bool {
+pub(crate) fn is_even([a, b, c]: [u32; 3]) -> bool {
     [a < b, b < c, c < a]
         .into_iter()
         .filter(|&rises| rises)
@@ -63,7 +63,7 @@ fn is_even([a, b, c]: [u32; 3]) -> bool {
         == 2
 }
 
-fn retain<T>(list: &mut Vec<T>, keep: &[bool]) {
+pub(super) fn retain<T>(list: &mut Vec<T>, keep: &[bool]) {
     let mut flags = keep.iter();
     list.retain(|_| flags.next().copied().unwrap_or(true));
 }

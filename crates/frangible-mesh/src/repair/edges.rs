@@ -2,7 +2,7 @@
 
 /// One side of a triangle, filed under the lower vertex of its edge.
 #[derive(Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Side {
+pub(crate) struct Side {
     /// The higher vertex of the edge.
     far: u32,
     /// Twice the triangle, plus one if it runs from the lower to the higher vertex.
@@ -10,28 +10,28 @@ pub(super) struct Side {
 }
 
 impl Side {
-    pub(super) fn triangle(self) -> usize {
+    pub(crate) fn triangle(self) -> usize {
         (self.code >> 1) as usize
     }
 
-    pub(super) fn is_forward(self) -> bool {
+    pub(crate) fn is_forward(self) -> bool {
         self.code & 1 == 1
     }
 
-    pub(super) fn far(self) -> u32 {
+    pub(crate) fn far(self) -> u32 {
         self.far
     }
 }
 
 /// The sides of all triangles, by edge.
-pub(super) struct Edges {
+pub(crate) struct Edges {
     starts: Vec<u32>,
     sides: Vec<Side>,
 }
 
 impl Edges {
     /// Triangles must not repeat a vertex.
-    pub(super) fn new(vertices: usize, triangles: &[[u32; 3]]) -> Self {
+    pub(crate) fn new(vertices: usize, triangles: &[[u32; 3]]) -> Self {
         let directed = |t: &[u32; 3]| [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])];
         let mut starts = vec![0_u32; vertices + 1];
         for (a, b) in triangles.iter().flat_map(directed) {
@@ -59,7 +59,7 @@ impl Edges {
     }
 
     /// Each edge's lower vertex and sides, by vertices.
-    pub(super) fn groups(&self) -> impl Iterator<Item = (u32, &[Side])> {
+    pub(crate) fn groups(&self) -> impl Iterator<Item = (u32, &[Side])> {
         self.starts.windows(2).enumerate().flat_map(|(v, range)| {
             let sides = &self.sides[range[0] as usize..range[1] as usize];
             sides

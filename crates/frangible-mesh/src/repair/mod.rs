@@ -1,8 +1,8 @@
 //! Repair: turns the triangles of a file into a surface that a solid can be made of.
 
-mod column;
-mod duplicates;
-mod edges;
+pub(crate) mod column;
+pub(crate) mod duplicates;
+pub(crate) mod edges;
 mod patches;
 mod report;
 mod shells;
@@ -75,16 +75,11 @@ pub fn repair(mesh: &InputMesh) -> Result<(Surface, RepairReport), RepairError> 
         loose: mesh.positions.len() - used,
         ..RepairReport::default()
     };
-    let first = weld::same_place(&mesh.positions, bounds);
-    let mut triangles: Vec<[u32; 3]> = mesh
-        .triangles
-        .iter()
-        .map(|t| t.map(|v| first[v as usize]))
-        .collect();
-    drop(first);
-    triangles.retain(has_three_vertices);
-    let mut positions = compact(&mesh.positions, &mut triangles);
-    close_cracks(&mut positions, &mut triangles, diagonal);
+    let Welded {
+        positions,
+        mut triangles,
+        ..
+    } = welded(mesh, bounds);
     report.welded = used - positions.len();
     report.degenerate = faces_in - triangles.len();
     if triangles.iter().all(|&t| has_no_area(&positions, t)) {
@@ -169,11 +164,11 @@ fn compact(positions: &[DVec3], triangles: &mut [[u32; 3]]) -> Vec<DVec3> {
     kept
 }
 
-fn has_three_vertices(&[a, b, c]: &[u32; 3]) -> bool {
+fn has_three_vertices([a, b, c]: [u32; 3]) -> bool {
     a != b && b != c && c != a
 }
 
-fn has_no_area(positions: &[DVec3], triangle: [u32; 3]) -> bool {
+pub(crate) fn has_no_area(positions: &[DVec3], triangle: [u32; 3]) -> bool {
     let [a, b, c] = triangle.map(|v| positions[v as usize]);
     let longest = (b - a)
         .length_squared()
@@ -182,23 +177,74 @@ fn has_no_area(positions: &[DVec3], triangle: [u32; 3]) -> bool {
     (b - a).cross(c - a).length() <= NEEDLE * longest
 }
 
-fn close_cracks(positions: &mut Vec<DVec3>, triangles: &mut Vec<[u32; 3]>, diagonal: f64) {
-    let mut rim_edge = vec![f64::INFINITY; positions.len()];
-    for (near, group) in Edges::new(positions.len(), triangles).groups() {
-        if let [side] = group {
-            let ends = [near as usize, side.far() as usize];
-            let length = positions[ends[0]].distance(positions[ends[1]]);
-            for end in ends {
-                rim_edge[end] = rim_edge[end].min(length);
+/// Triangles of a mesh on vertices that are the same where they lie in one place, cracks closed.
+pub(crate) struct Welded {
+    /// Vertices in use, in the mesh's unit.
+    pub(crate) positions: Vec<DVec3>,
+    /// Triangles with three vertices; some may have no area, or repeat another.
+    pub(crate) triangles: Vec<[u32; 3]>,
+    /// The mesh's triangle of each.
+    pub(crate) origin: Vec<u32>,
+}
+
+/// Welds a mesh that has been checked.
+fn welded(mesh: &InputMesh, bounds: [DVec3; 2]) -> Welded {
+    let first = weld::same_place(&mesh.positions, bounds);
+    let mut welded = Welded {
+        positions: Vec::new(),
+        triangles: Vec::with_capacity(mesh.triangles.len()),
+        origin: Vec::with_capacity(mesh.triangles.len()),
+    };
+    for (t, triangle) in (0..).zip(&mesh.triangles) {
+        welded.triangles.push(triangle.map(|v| first[v as usize]));
+        welded.origin.push(t);
+    }
+    drop(first);
+    welded.retain_triangles();
+    welded.positions = compact(&mesh.positions, &mut welded.triangles);
+    welded.close_cracks((bounds[1] - bounds[0]).length());
+    welded
+}
+
+/// Checks and welds a mesh.
+pub(crate) fn weld_mesh(mesh: &InputMesh) -> Result<Welded, RepairError> {
+    let (bounds, _) = check(mesh)?;
+    let welded = welded(mesh, bounds);
+    let has_area = |&t: &[u32; 3]| !has_no_area(&welded.positions, t);
+    match welded.triangles.iter().any(has_area) {
+        true => Ok(welded),
+        false => Err(RepairError::NoArea(mesh.triangles.len())),
+    }
+}
+
+impl Welded {
+    /// Drops triangles that have fewer than three vertices.
+    fn retain_triangles(&mut self) {
+        let keep = self.triangles.iter().map(|&t| has_three_vertices(t));
+        let keep: Vec<bool> = keep.collect();
+        duplicates::retain(&mut self.triangles, &keep);
+        duplicates::retain(&mut self.origin, &keep);
+    }
+
+    fn close_cracks(&mut self, diagonal: f64) {
+        let positions = &self.positions;
+        let mut rim_edge = vec![f64::INFINITY; positions.len()];
+        for (near, group) in Edges::new(positions.len(), &self.triangles).groups() {
+            if let [side] = group {
+                let ends = [near as usize, side.far() as usize];
+                let length = positions[ends[0]].distance(positions[ends[1]]);
+                for end in ends {
+                    rim_edge[end] = rim_edge[end].min(length);
+                }
             }
         }
-    }
-    if let Some(onto) = weld::across_cracks(positions, &rim_edge, diagonal) {
-        for v in triangles.iter_mut().flatten() {
-            *v = onto[*v as usize];
+        if let Some(onto) = weld::across_cracks(positions, &rim_edge, diagonal) {
+            for v in self.triangles.iter_mut().flatten() {
+                *v = onto[*v as usize];
+            }
+            self.retain_triangles();
+            self.positions = compact(&self.positions, &mut self.triangles);
         }
-        triangles.retain(has_three_vertices);
-        *positions = compact(positions, triangles);
     }
 }
 

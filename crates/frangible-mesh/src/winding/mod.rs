@@ -3,6 +3,7 @@
 //! J13: Jacobson, Kavan, Sorkine-Hornung 2013, "Robust inside-outside segmentation using generalized winding numbers".
 //! B18: Barill, Dickson, Schmidt, Levin, Jacobson 2018, "Fast winding numbers for soups and clouds".
 
+mod faces;
 mod far;
 mod mesh_solid;
 mod moments;
@@ -14,6 +15,7 @@ mod skin_wall;
 mod thickness;
 mod tree;
 
+pub(crate) use faces::FaceTree;
 pub use mesh_solid::{MeshSolid, SolidError};
 pub use nearest::Nearest;
 pub use skin_wall::SkinWall;
