@@ -13,7 +13,7 @@ use frangible::internals::modal::ModalBasis;
 use frangible::internals::stress::StressBounds;
 use frangible::internals::{MassProperties, TetMesh};
 use frangible::{Asset, InputError, Material};
-use frangible_mesh::TetReport;
+use frangible_mesh::{TetReport, VolumeAim};
 use web_time::Instant;
 
 use crate::analysis::Analysis;
@@ -26,7 +26,7 @@ use crate::followed::followed;
 use crate::groups::Group;
 use crate::mesh::BodyMesh;
 use crate::report::{BakeReport, MeshReport, Progress, Stage};
-use crate::shapes::{self, MeshSize, Shape};
+use crate::shapes::{self, MeshSize, Shape, SolidShape};
 use crate::supports::{Holder, Support, check_groups, check_supports};
 use crate::surface::{CREASE, SOLID_CREASE, outer_surface};
 use crate::walls::walls;
@@ -168,6 +168,13 @@ pub fn bake(
         &fine.tets,
         "contains no part of the body; move or enlarge its region",
     )?;
+    let closed_volume = match &spec.shape {
+        Shape::Solid(SolidShape {
+            volume: VolumeAim::Exact(volume),
+            ..
+        }) => Some(*volume),
+        _ => None,
+    };
     let corners = (0..fine.tets.len()).map(|e| fine.corners(e));
     let centre = MassProperties::of_tetrahedra(spec.material.density, corners).centre;
     fine.translate(-centre);
@@ -267,6 +274,7 @@ pub fn bake(
         max_residual: modes.max_residual,
         cells: fine.cells,
         mass: mass.mass,
+        closed_volume,
         centre,
         seconds: clock.finish(),
         mode_seconds: modes.seconds,

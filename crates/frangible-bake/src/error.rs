@@ -1,7 +1,7 @@
 //! Errors of baking. Each message says what is wrong and how to fix it.
 
 use frangible::InputError;
-use frangible_mesh::{RepairError, SolidError, TetError, TetInputError};
+use frangible_mesh::{PartError, RepairError, SolidError, TetError, TetInputError};
 use thiserror::Error;
 
 /// Error of a bake.
@@ -32,6 +32,22 @@ pub enum BakeError {
     /// A mesh that cannot be repaired.
     #[error(transparent)]
     Repair(#[from] RepairError),
+    /// Parts of a mesh that cannot be chosen as asked for.
+    #[error(transparent)]
+    Parts(#[from] PartError),
+    /// Several bodies where one is wanted.
+    #[error(
+        "the mesh has several bodies ({found}); import them with `import_parts`, or choose the largest, or weld them (`ImportOptions::parts`)"
+    )]
+    SeveralParts {
+        /// What was found.
+        found: String,
+    },
+    /// Parts chosen of a wall.
+    #[error(
+        "the parts of a wall cannot be chosen: all its sheets are one body; leave the choice or the thickness of the wall out"
+    )]
+    PartsOfWall,
     /// A surface that does not enclose a solid.
     #[error(transparent)]
     Solid(#[from] SolidError),

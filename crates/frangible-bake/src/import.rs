@@ -1,11 +1,13 @@
 //! Import of meshes as shapes to bake.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
+use frangible::glam::DVec3;
 use frangible::internals::asset::{RenderMaterial, RenderSurface};
 use frangible_mesh::{
-    InputMesh, MeshSolid, RepairReport, Similarity, SkinWall, Solid, Thickness, repair,
-    wall_thickness,
+    InputMesh, MeshSolid, PartChoice, Parts, RepairReport, Similarity, SkinWall, Solid, Surface,
+    Thickness, VolumeAim, WeldedSolid, repair, wall_thickness,
 };
 
 use crate::error::{BakeError, positive};
@@ -14,6 +16,9 @@ use crate::shapes::{Shape, SolidShape};
 
 /// Places at which the walls are measured: the twentieth of them that is thinnest is then twenty or so.
 const SAMPLES: usize = 400;
+
+/// Tetrahedra that a body among others gets at least, unless fewer are wanted in all.
+const LEAST_TETS: usize = 1000;
 
 /// Settings for importing a mesh.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,6 +33,8 @@ pub struct ImportOptions {
     /// Thickness of a wall centred on the surface of the mesh, m; `None` (default): the body is the solid that the mesh encloses. A wall is
     /// not rendered with the authored surface, which lies in its middle.
     pub wall: Option<f64>,
+    /// What becomes of several parts, default [`PartChoice::Auto`]: each is a body. A wall is always one body.
+    pub parts: PartChoice,
 }
 
 impl Default for ImportOptions {
@@ -37,6 +44,7 @@ impl Default for ImportOptions {
             tets: crate::shapes::FRACTURE_TETS as usize,
             most: None,
             wall: None,
+            parts: PartChoice::Auto,
         }
     }
 }
@@ -60,43 +68,213 @@ pub struct Imported {
     pub similarity: Similarity,
 }
 
-/// Repairs a mesh and determines its interior and wall thickness.
+/// A body of a mesh that has several.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct ImportedPart {
+    /// Name in the file, different from those of the other parts; empty if the mesh is one part.
+    pub name: String,
+    /// The body, in the frame of the whole mesh.
+    pub body: Imported,
+}
+
+/// The bodies of a mesh.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct ImportedParts {
+    /// The bodies, in the order of the file; at least one.
+    pub parts: Vec<ImportedPart>,
+    /// What was found and chosen, in one line; `None` for a mesh of a single part.
+    pub note: Option<String>,
+}
+
+/// Repairs a mesh of one body and determines its interior and wall thickness.
 ///
 /// # Errors
-/// The mesh does not describe a solid, or a value is invalid.
+/// The mesh does not describe a solid, or describes several and [`ImportOptions::parts`] does not choose one, or a value is invalid.
 pub fn import_mesh(mesh: &InputMesh, options: &ImportOptions) -> Result<Imported, BakeError> {
+    let ImportedParts { mut parts, note } = import_parts(mesh, options)?;
+    match (parts.pop(), parts.is_empty()) {
+        (Some(only), true) => Ok(only.body),
+        _ => Err(BakeError::SeveralParts {
+            found: note.unwrap_or_default(),
+        }),
+    }
+}
+
+/// Finds the parts of a mesh, and imports those that [`ImportOptions::parts`] chooses. Each is meshed alone, so that no gap between them is
+/// closed. They share the requested tetrahedra by their volumes.
+///
+/// # Errors
+/// The mesh does not describe a solid, its parts cannot be chosen so, or a value is invalid.
+pub fn import_parts(mesh: &InputMesh, options: &ImportOptions) -> Result<ImportedParts, BakeError> {
     positive("the number of tetrahedra wanted", options.tets as f64)?;
-    let (mut surface, mended) = repair(mesh)?;
     let similarity = match options.size {
         Some(size) => {
             positive("the size, in m,", size)?;
-            surface.resize(size)
+            Similarity::resizing(used_bounds(mesh), size)
         }
         None => Similarity::IDENTITY,
     };
+    if let Some(wall) = options.wall {
+        positive("the thickness of the wall, in m,", wall)?;
+        if options.parts != PartChoice::Auto {
+            return Err(BakeError::PartsOfWall);
+        }
+        let (surface, mended) = repaired(mesh, &similarity)?;
+        let solid = MeshSolid::new(&surface)?;
+        let body = Solved {
+            thickness: wall_thickness(&solid, SAMPLES, 1),
+            solid: Arc::new(SkinWall::new(solid, wall)),
+            wall: Some(wall),
+            volume: VolumeAim::Lattice,
+            mended,
+        };
+        return Ok(ImportedParts {
+            parts: vec![ImportedPart {
+                name: String::new(),
+                body: body.imported(mesh, similarity, options, options.tets),
+            }],
+            note: None,
+        });
+    }
+    let mut moved = Cow::Borrowed(mesh);
+    if similarity != Similarity::IDENTITY {
+        moved.to_mut().transform(&similarity);
+    }
+    let found = Parts::of(&moved)?;
+    let chosen = found.choose(&moved, &options.parts)?;
+    let total: f64 = chosen.bodies.iter().map(|body| body.volume).sum();
+    let mut parts = Vec::with_capacity(chosen.bodies.len());
+    for body in &chosen.bodies {
+        let tets = match chosen.bodies.len() {
+            1 => options.tets,
+            _ => {
+                let share = (options.tets as f64 * body.volume / total) as usize;
+                share.max(LEAST_TETS.min(options.tets))
+            }
+        };
+        let own = found.mesh(mesh, &body.parts);
+        let solved = match chosen.weld {
+            Some(gap) => welded(mesh, &similarity, &found, gap)?,
+            None => {
+                let exact = body.is_exact.then_some(VolumeAim::Exact(body.volume));
+                solved(&own, &similarity, exact.unwrap_or(VolumeAim::Counted))?
+            }
+        };
+        parts.push(ImportedPart {
+            name: body.name.clone(),
+            body: solved.imported(&own, similarity, options, tets),
+        });
+    }
+    let note = chosen.note;
+    Ok(ImportedParts { parts, note })
+}
+
+/// Lowest and highest corner of the vertices that triangles use.
+fn used_bounds(mesh: &InputMesh) -> [DVec3; 2] {
+    let used = mesh.triangles.iter().flatten();
+    let places = used.filter_map(|&v| mesh.positions.get(v as usize));
+    let nothing = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+    places.fold(nothing, |[low, high], &p| [low.min(p), high.max(p)])
+}
+
+fn repaired(
+    mesh: &InputMesh,
+    similarity: &Similarity,
+) -> Result<(Surface, RepairReport), BakeError> {
+    let (mut surface, mended) = repair(mesh)?;
+    if *similarity != Similarity::IDENTITY {
+        surface.transform(similarity);
+    }
+    Ok((surface, mended))
+}
+
+/// A solid, and what is known of it.
+struct Solved {
+    solid: Arc<dyn Solid>,
+    wall: Option<f64>,
+    volume: VolumeAim,
+    mended: RepairReport,
+    thickness: Thickness,
+}
+
+/// The solid inside one part.
+fn solved(
+    mesh: &InputMesh,
+    similarity: &Similarity,
+    volume: VolumeAim,
+) -> Result<Solved, BakeError> {
+    let (surface, mended) = repaired(mesh, similarity)?;
     let solid = MeshSolid::new(&surface)?;
     let thickness = wall_thickness(&solid, SAMPLES, 1);
-    let (solid, wall): (Arc<dyn Solid>, _) = match options.wall {
-        Some(wall) => {
-            positive("the thickness of the wall, in m,", wall)?;
-            (Arc::new(SkinWall::new(solid, wall)), Some(wall))
-        }
-        None => (Arc::new(solid), thickness.of_shell()),
-    };
-    let shape = SolidShape {
-        wall,
-        tets: options.tets,
-        most: options.most.unwrap_or((3 * options.tets).max(250_000)),
-        ..SolidShape::new(solid)
-    };
-    Ok(Imported {
-        shape: Shape::Solid(shape),
-        render: (options.wall.is_none()).then(|| drawn(mesh, &similarity)),
-        groups: Group::of_mesh(mesh, &similarity),
+    Ok(Solved {
+        wall: thickness.of_shell(),
+        solid: Arc::new(solid),
+        volume,
         mended,
         thickness,
-        similarity,
     })
+}
+
+/// All parts as one solid, gaps of at most this width filled.
+fn welded(
+    mesh: &InputMesh,
+    similarity: &Similarity,
+    parts: &Parts,
+    gap: f64,
+) -> Result<Solved, BakeError> {
+    let (_, mended) = repaired(mesh, similarity)?;
+    let mut solids = Vec::with_capacity(parts.list.len());
+    let mut thinnest: Option<Thickness> = None;
+    for part in 0..parts.list.len() {
+        let (surface, _) = repaired(&parts.mesh(mesh, &[part]), similarity)?;
+        let solid = MeshSolid::new(&surface)?;
+        let thickness = wall_thickness(&solid, SAMPLES, 1);
+        let of = |t: &Thickness| t.of_shell().unwrap_or(f64::INFINITY);
+        if thinnest.as_ref().is_none_or(|t| of(&thickness) < of(t)) {
+            thinnest = Some(thickness);
+        }
+        solids.push(solid);
+    }
+    let thickness = match thinnest {
+        Some(thickness) => thickness,
+        None => return solved(mesh, similarity, VolumeAim::Counted),
+    };
+    Ok(Solved {
+        wall: thickness.of_shell(),
+        solid: Arc::new(WeldedSolid::new(solids, gap)),
+        // In narrow gaps the count is too low.
+        volume: VolumeAim::Lattice,
+        mended,
+        thickness,
+    })
+}
+
+impl Solved {
+    fn imported(
+        self,
+        mesh: &InputMesh,
+        similarity: Similarity,
+        options: &ImportOptions,
+        tets: usize,
+    ) -> Imported {
+        let shape = SolidShape {
+            wall: self.wall,
+            tets,
+            most: options.most.unwrap_or((3 * options.tets).max(250_000)),
+            volume: self.volume,
+            ..SolidShape::new(self.solid)
+        };
+        Imported {
+            shape: Shape::Solid(shape),
+            render: (options.wall.is_none()).then(|| drawn(mesh, &similarity)),
+            groups: Group::of_mesh(mesh, &similarity),
+            mended: self.mended,
+            thickness: self.thickness,
+            similarity,
+        }
+    }
 }
 
 /// The mesh as drawn, its vertices, texture coordinates, normals, colours and materials kept.

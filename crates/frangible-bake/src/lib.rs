@@ -71,7 +71,7 @@ pub use followed::stress_rows;
 pub use frangible::internals::asset::{RescaleError, scaled, with_material};
 pub use frangible_mesh;
 pub use groups::Group;
-pub use import::{ImportOptions, Imported, import_mesh};
+pub use import::{ImportOptions, Imported, ImportedPart, ImportedParts, import_mesh, import_parts};
 pub use import_tets::{ImportedTets, import_tets};
 pub use mesh::BodyMesh;
 pub use mode_field::ModeField;

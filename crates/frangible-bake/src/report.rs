@@ -104,6 +104,9 @@ pub struct BakeReport {
     pub cells: usize,
     /// Mass, kg.
     pub mass: f64,
+    /// Volume inside the closed surface from which the body was made, m³, if it is known. The fracture mesh has it, unless the
+    /// mesher could not move its surface that far.
+    pub closed_volume: Option<f64>,
     /// Centre of mass in the frame of the shape, m: the origin of the body frame.
     pub centre: DVec3,
     /// Wall-clock time of each stage, s.

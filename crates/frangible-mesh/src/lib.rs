@@ -49,9 +49,11 @@ pub use stuffing::counted_volume;
 pub use surface::Surface;
 pub use tet_input::{TetGroup, TetInput};
 pub use tetrahedralize::{
-    CELLS_PER_WALL, Resolution, SMALLEST_ANGLE, TetOptions, TetReport, tetrahedralize,
+    CELLS_PER_WALL, Resolution, SMALLEST_ANGLE, TetOptions, TetReport, VolumeAim, tetrahedralize,
     tetrahedralize_watched,
 };
 pub use tets::TetBody;
 pub use tets::features::Features;
-pub use winding::{MeshSolid, Nearest, SkinWall, SolidError, Thickness, wall_thickness};
+pub use winding::{
+    MeshSolid, Nearest, SkinWall, SolidError, Thickness, WeldedSolid, wall_thickness,
+};

@@ -13,4 +13,5 @@ mod repair;
 mod shapes;
 mod tetrahedra;
 mod tets;
+mod welded;
 mod winding;

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use frangible::internals::TetMesh;
 use frangible_mesh::{
-    Resolution, Solid, TetOptions, TetReport, counted_volume, tetrahedralize_watched,
+    Resolution, Solid, TetOptions, TetReport, VolumeAim, counted_volume, tetrahedralize_watched,
 };
 
 use crate::clusters::cluster;
@@ -41,6 +41,8 @@ pub struct SolidShape {
     pub tets: usize,
     /// Largest number of tetrahedra of the fracture mesh; an error if walls need more.
     pub most: usize,
+    /// Volume that the tetrahedra are given, by default what the lattice has of the solid.
+    pub volume: VolumeAim,
 }
 
 impl SolidShape {
@@ -52,6 +54,7 @@ impl SolidShape {
             wall: None,
             tets: super::FRACTURE_TETS as usize,
             most: 250_000,
+            volume: VolumeAim::Lattice,
         }
     }
 }
@@ -94,6 +97,7 @@ impl PartialEq for SolidShape {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.solid, &other.solid)
             && (self.wall, self.tets, self.most) == (other.wall, other.tets, other.most)
+            && self.volume == other.volume
     }
 }
 
@@ -104,6 +108,7 @@ impl fmt::Debug for SolidShape {
             .field("wall", &self.wall)
             .field("tets", &self.tets)
             .field("most", &self.most)
+            .field("volume", &self.volume)
             .finish()
     }
 }
@@ -149,6 +154,7 @@ pub(crate) fn mesh(
     options.most = shape.most;
     options.wall = shape.wall;
     options.irregular = seed;
+    options.volume = shape.volume;
     let (body, report) = tetrahedralize_watched(shape.solid.as_ref(), &options, watch)?;
     let mesh = TetMesh::new(
         body.positions.iter().map(|p| p.as_vec3()).collect(),

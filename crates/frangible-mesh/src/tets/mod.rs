@@ -2,6 +2,7 @@
 
 pub(crate) mod adjacency;
 pub(crate) mod features;
+pub(crate) mod fill;
 pub(crate) mod improve;
 pub(crate) mod jitter;
 pub(crate) mod local;

@@ -14,9 +14,11 @@ mod segment;
 mod skin_wall;
 mod thickness;
 mod tree;
+mod welded;
 
 pub(crate) use faces::FaceTree;
 pub use mesh_solid::{MeshSolid, SolidError};
 pub use nearest::Nearest;
 pub use skin_wall::SkinWall;
 pub use thickness::{Thickness, wall_thickness};
+pub use welded::WeldedSolid;
