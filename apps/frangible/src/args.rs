@@ -173,6 +173,15 @@ pub(crate) struct MeshArgs {
     #[arg(long, value_name = "METRES", allow_hyphen_values = true)]
     pub(crate) wall: Option<f64>,
 
+    /// What to make of a mesh with several separate parts: a body of each (separate), the largest alone, or one body of all (weld) [default: a
+    /// body of each, where layers that share faces are one]
+    #[arg(long, value_name = "separate|largest|weld")]
+    pub(crate) parts: Option<String>,
+
+    /// With --parts weld, fill gaps between the parts up to this width, in metres [default: only parts that touch]
+    #[arg(long, value_name = "METRES", allow_hyphen_values = true)]
+    pub(crate) gap: Option<f64>,
+
     /// Axis of the file that points up: x, y or z [default: z for STL, PLY and tetrahedral meshes, otherwise y]
     #[arg(long, value_name = "AXIS")]
     pub(crate) up: Option<String>,

@@ -1,15 +1,17 @@
 //! `frangible bake`: a body into a file.
 
 use std::error::Error;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use frangible_bake::frangible_mesh::PartChoice;
 use frangible_scenes::{
-    BakedBody, FileKind, Opened, bake_opened, compacted, open_sources, save_asset,
-    save_compact_asset,
+    BakedBody, BodySource, FileKind, Opened, Scene, bake_opened, compacted, open_scene,
+    open_sources, save_asset, save_compact_asset, tame,
 };
 
 use crate::args::BakeArgs;
-use crate::breaking::filled;
+use crate::breaking::{baked_off, filled};
 use crate::progress::Bar;
 use crate::request::body_of;
 use crate::say::say;
@@ -29,10 +31,19 @@ pub(crate) fn run(args: &BakeArgs) -> Result<(), Box<dyn Error>> {
     }
     let bar = Bar::new(false);
     bar.show(&format!("{}: reading", scene.name), 0.0);
-    let sources = open_sources(&scene)?;
+    let is_separate = args.mesh.parts.as_deref() == Some("separate");
+    let (scene, sources) = if is_separate {
+        open_scene(&scene)?
+    } else {
+        let sources = open_sources(&scene)?;
+        (scene, sources)
+    };
     let mut notes: Vec<String> = sources.iter().flat_map(Opened::notes).cloned().collect();
     let open: Vec<bool> = sources.iter().map(Opened::is_open).collect();
-    try_file(&args.output)?;
+    let outputs = outputs(&scene, &args.output);
+    for output in &outputs {
+        try_file(output)?;
+    }
 
     let clock = Instant::now();
     let baked = bake_opened(&scene, sources, &mut |p| {
@@ -40,12 +51,41 @@ pub(crate) fn run(args: &BakeArgs) -> Result<(), Box<dyn Error>> {
     })?;
     drop(bar);
     let seconds = clock.elapsed().as_secs_f64();
-    let Some(body) = baked.first() else {
-        return Err("the scene has no body; add a [[body]]".into());
-    };
     notes.extend(filled(&open, &baked));
-    let mut text = quality(body, seconds);
-    if args.compact {
+    let mut text = String::new();
+    for (body, output) in baked.iter().zip(&outputs) {
+        text += &quality(body);
+        text += &save(body, output, args.compact)?;
+    }
+    text += &row("seconds", &format!("{seconds:.2}"));
+    for note in notes {
+        text += &row("note", &note);
+    }
+    Ok(say(&text)?)
+}
+
+/// The file of each body: the one that was named, or, of several, one with the name of each part.
+fn outputs(scene: &Scene, output: &Path) -> Vec<PathBuf> {
+    if scene.bodies.len() < 2 {
+        return vec![output.to_path_buf()];
+    }
+    let stem = output.file_stem().unwrap_or_default().to_string_lossy();
+    let names = scene.bodies.iter().map(|body| match &body.source {
+        BodySource::Mesh {
+            parts: PartChoice::Only(part),
+            ..
+        } => tame(part),
+        _ => tame(&body.name),
+    });
+    names
+        .map(|name| output.with_file_name(format!("{stem}-{name}.frangible")))
+        .collect()
+}
+
+/// Writes a baked body. Returns what is to be said of it.
+fn save(body: &BakedBody, output: &Path, compact: bool) -> Result<String, Box<dyn Error>> {
+    let mut text = String::new();
+    if compact {
         let (asset, change) = compacted(&body.asset);
         if change > MOST_CHANGE {
             return Err(format!(
@@ -55,29 +95,26 @@ pub(crate) fn run(args: &BakeArgs) -> Result<(), Box<dyn Error>> {
             )
             .into());
         }
-        save_compact_asset(&asset, &args.output)?;
+        save_compact_asset(&asset, output)?;
         let value = format!(
             "mode shapes in half precision; peak stress of the modes changed by up to {:.3} %",
             100.0 * change
         );
         text += &row("compact", &value);
     } else {
-        save_asset(&body.asset, &args.output)?;
+        save_asset(&body.asset, output)?;
     }
     let shapes = size_of_val(&*body.asset.modes.shapes) as f64;
     text += &row(
         "wrote",
         &format!(
             "{}, {:.1} MB; the modes take {:.1} MB in memory",
-            args.output.display(),
-            1e-6 * std::fs::metadata(&args.output).map_or(0, |m| m.len()) as f64,
+            output.display(),
+            1e-6 * std::fs::metadata(output).map_or(0, |m| m.len()) as f64,
             1e-6 * shapes
         ),
     );
-    for note in notes {
-        text += &row("note", &note);
-    }
-    Ok(say(&text)?)
+    Ok(text)
 }
 
 fn row(name: &str, value: &str) -> String {
@@ -85,7 +122,7 @@ fn row(name: &str, value: &str) -> String {
 }
 
 /// Figures of the baked body, a row each.
-fn quality(body: &BakedBody, seconds: f64) -> String {
+fn quality(body: &BakedBody) -> String {
     let asset = &body.asset;
     let mut text = String::new();
     let mut row = |name: &str, value: String| text += &row(name, &value);
@@ -133,6 +170,8 @@ fn quality(body: &BakedBody, seconds: f64) -> String {
         row("stages", format!("{} s", stages.join(", ")));
     }
     row("mass", format!("{:.4} kg", asset.mass.mass));
-    row("seconds", format!("{seconds:.2}"));
+    if let Some(off) = baked_off(body) {
+        row("surface", off);
+    }
     text
 }

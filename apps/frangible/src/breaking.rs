@@ -8,7 +8,7 @@ use frangible::internals::Fields;
 use frangible_export::write_glb;
 use frangible_recording::write_atomically;
 use frangible_scenes::{
-    BakedBody, BodySpec, Opened, Run, Scene, Sounded, Sounding, bake_opened, open_sources, play,
+    BakedBody, BodySpec, Opened, Run, Scene, Sounded, Sounding, bake_opened, open_scene, play,
     sound, sound_config,
 };
 
@@ -24,7 +24,7 @@ pub(crate) fn run(file: Option<&Path>, args: &BreakArgs) -> Result<(), Box<dyn E
     let Request { scene, mut notes } = break_of(file, args)?;
     let bar = Bar::new(args.json);
     bar.show(&format!("{}: reading", scene.name), 0.0);
-    let sources = open_sources(&scene)?;
+    let (scene, sources) = open_scene(&scene)?;
     notes.extend(sources.iter().flat_map(Opened::notes).cloned());
     let open: Vec<bool> = sources.iter().map(Opened::is_open).collect();
     let names = scene.output.file_names(&scene.name);
@@ -185,6 +185,16 @@ fn mesh_notes(scene: &Scene, baked: &[BakedBody]) -> Vec<String> {
         }
     }
     notes
+}
+
+/// Volume of a body beside that of the closed surface that it was made from, in words, if that is known.
+pub(crate) fn baked_off(body: &BakedBody) -> Option<String> {
+    let closed = body.report.as_ref()?.closed_volume?;
+    let off = 100.0 * (body.asset.mass.volume / closed - 1.0);
+    Some(format!(
+        "encloses {:.3} cm³, the body has {off:+.3} %",
+        1e6 * closed
+    ))
 }
 
 /// Notes on the bodies whose surface is open. They are filled as solids: such a surface may be the skin of a pot, or a solid with a hole.

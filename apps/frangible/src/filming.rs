@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use frangible_photo::{FilmFormat, FilmWriter, Picture, SlowMotion, Studio};
 use frangible_recording::{Recording, View};
-use frangible_scenes::{BakedBody, Scene, Sounded, bake_opened, open_sources, play};
+use frangible_scenes::{BakedBody, Scene, Sounded, bake_opened, open_scene, play};
 
 use crate::args::FilmArgs;
 #[cfg(feature = "view")]
@@ -46,7 +46,7 @@ pub(crate) fn run(args: &FilmArgs) -> Result<(), Box<dyn Error>> {
     let mut film = FilmWriter::begin(&path, format, args.frame, args.rate)?;
     let bar = Bar::new(false);
     bar.show(&format!("{}: reading", scene.name), 0.0);
-    let sources = open_sources(&scene)?;
+    let (scene, sources) = open_scene(&scene)?;
     let baked = bake_opened(&scene, sources, &mut |p| {
         bar.show(&format!("{}: {}", scene.name, p.stage), p.fraction);
     })?;

@@ -46,6 +46,8 @@ pub(crate) struct BodyReport {
     pub(crate) mass_kg: f64,
     pub(crate) fragment_mass_sum_kg: f64,
     pub(crate) volume_m3: f64,
+    /// Volume inside the closed surface of the file, if the body was made from one.
+    pub(crate) surface_volume_m3: Option<f64>,
     pub(crate) fragment_volume_sum_m3: f64,
     pub(crate) largest_fragments_kg: Vec<f64>,
     /// Pieces that broke again.
@@ -245,6 +247,7 @@ impl BodyReport {
             mass_kg: asset.mass.mass,
             fragment_mass_sum_kg: broken.map_or(asset.mass.mass, |b| b.masses.iter().sum()),
             volume_m3: asset.mass.volume,
+            surface_volume_m3: baked.report.as_ref().and_then(|r| r.closed_volume),
             fragment_volume_sum_m3: broken.map_or(asset.mass.volume, |b| b.volume),
             breaks_again: breaks().filter(|b| b.generation > 0).count(),
             pieces_at_end: 1 + breaks().map(|b| b.masses.len() - 1).sum::<usize>(),
@@ -277,6 +280,14 @@ impl BodyReport {
                     .map_or(String::new(), |r| format!(" (residual {r:.0e})"))
             ),
         );
+        if let Some(closed) = self.surface_volume_m3 {
+            let off = 100.0 * (self.volume_m3 / closed - 1.0);
+            let closed = 1e6 * closed;
+            row(
+                "volume",
+                format!("{off:+.3} % beside the {closed:.2} cm³ inside the surface"),
+            );
+        }
         if let Some(i) = &self.impact {
             row(
                 "impact",

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use frangible::Material;
 use frangible::glam::{Quat, Vec3};
+use frangible_bake::frangible_mesh::PartChoice;
 use frangible_bake::{MOST_MODES, USUAL_MODES};
 use frangible_scenes::{
     Axis, BodySource, FileKind, FileWish, MaterialEdit, Projectile, SCENE_NAMES, Scene,
@@ -245,11 +246,13 @@ fn set_mesh(scene: &mut Scene, args: &MeshArgs) -> Result<(), String> {
                 .ok_or_else(|| format!("--up is `{name}`; it must be x, y or z"))?,
         ),
     };
+    let parts = parts_of(args)?;
     // The resolution stands last, because any body that is not baked takes it.
     let given = [
         ("--size", args.size.is_some()),
         ("--up", axis.is_some()),
         ("--wall", args.wall.is_some()),
+        ("--parts", parts.is_some()),
         ("--resolution", args.resolution.is_some()),
     ];
     let Some((option, _)) = given.into_iter().find(|(_, given)| *given) else {
@@ -268,6 +271,8 @@ fn set_mesh(scene: &mut Scene, args: &MeshArgs) -> Result<(), String> {
             refuse_baked(scene, option)?;
         }
     }
+    let only_resolution =
+        args.size.is_none() && axis.is_none() && args.wall.is_none() && parts.is_none();
     let body = &mut scene.bodies[0];
     match &mut body.source {
         BodySource::Mesh {
@@ -275,8 +280,12 @@ fn set_mesh(scene: &mut Scene, args: &MeshArgs) -> Result<(), String> {
             resolution,
             up,
             wall,
+            parts: chosen,
             ..
         } => {
+            if let Some(parts) = parts {
+                *chosen = parts;
+            }
             if args.wall.is_some() {
                 *wall = args.wall;
             }
@@ -289,21 +298,19 @@ fn set_mesh(scene: &mut Scene, args: &MeshArgs) -> Result<(), String> {
             *up = axis.unwrap_or(*up);
             Ok(())
         }
-        BodySource::Ready { resolution, .. }
-            if args.size.is_none() && axis.is_none() && args.wall.is_none() =>
-        {
+        BodySource::Ready { resolution, .. } if only_resolution => {
             if let Some(tets) = args.resolution {
                 *resolution = Some(count(tets)?);
             }
             Ok(())
         }
-        BodySource::Shape(_) if args.size.is_none() && axis.is_none() && args.wall.is_none() => {
+        BodySource::Shape(_) if only_resolution => {
             if let Some(tets) = args.resolution {
                 body.resolution = Some(count(tets)?);
             }
             Ok(())
         }
-        BodySource::Asset(_) => {
+        BodySource::Asset(_) if parts.is_none() => {
             if args.size.is_some() {
                 body.rescale.size = args.size;
             }
@@ -314,11 +321,25 @@ fn set_mesh(scene: &mut Scene, args: &MeshArgs) -> Result<(), String> {
         }
         _ => Err(format!(
             "{option} applies only to mesh files (.obj, .stl, .ply, .gltf, .glb){}",
-            if option == "--wall" {
+            if ["--wall", "--parts"].contains(&option) {
                 ""
             } else {
                 " and baked bodies"
             }
+        )),
+    }
+}
+
+fn parts_of(args: &MeshArgs) -> Result<Option<PartChoice>, String> {
+    let gap = args.gap;
+    match (args.parts.as_deref(), gap) {
+        (None, None) => Ok(None),
+        (Some("weld"), gap) => Ok(Some(PartChoice::Weld { gap })),
+        (_, Some(_)) => Err("--gap is for parts that are welded; add --parts weld".into()),
+        (Some("separate"), None) => Ok(Some(PartChoice::Separate)),
+        (Some("largest"), None) => Ok(Some(PartChoice::Largest)),
+        (Some(other), None) => Err(format!(
+            "--parts is `{other}`; it must be separate, largest or weld"
         )),
     }
 }

@@ -1,5 +1,7 @@
 //! Errors of baking. Each message says what is wrong and how to fix it.
 
+use std::path::PathBuf;
+
 use frangible::InputError;
 use frangible_mesh::{PartError, RepairError, SolidError, TetError, TetInputError};
 use thiserror::Error;
@@ -29,6 +31,14 @@ pub enum BakeError {
     /// A material or an asset that the core crate rejects.
     #[error(transparent)]
     Input(#[from] InputError),
+    /// A mesh file that cannot be read.
+    #[error("{problem}: {}", path.display())]
+    File {
+        /// Path of the file.
+        path: PathBuf,
+        /// Reason, in words.
+        problem: String,
+    },
     /// A mesh that cannot be repaired.
     #[error(transparent)]
     Repair(#[from] RepairError),

@@ -20,6 +20,9 @@ const SAMPLES: usize = 400;
 /// Tetrahedra that a body among others gets at least, unless fewer are wanted in all.
 const LEAST_TETS: usize = 1000;
 
+/// Points along the longest side of a body whose centre is counted.
+const GRID: f64 = 48.0;
+
 /// Settings for importing a mesh.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -74,6 +77,11 @@ pub struct Imported {
 pub struct ImportedPart {
     /// Name in the file, different from those of the other parts; empty if the mesh is one part.
     pub name: String,
+    /// Centre of the volume inside, m, in the frame of the shape, which all parts share. The body frame of the asset has its origin there, but
+    /// for the error of its tetrahedra.
+    pub centre: DVec3,
+    /// Requested number of tetrahedra of its fracture mesh: its share of [`ImportOptions::tets`].
+    pub tets: usize,
     /// The body, in the frame of the whole mesh.
     pub body: Imported,
 }
@@ -129,10 +137,13 @@ pub fn import_parts(mesh: &InputMesh, options: &ImportOptions) -> Result<Importe
             wall: Some(wall),
             volume: VolumeAim::Lattice,
             mended,
+            centre: centre_of(&surface),
         };
         return Ok(ImportedParts {
             parts: vec![ImportedPart {
                 name: String::new(),
+                centre: body.centre,
+                tets: options.tets,
                 body: body.imported(mesh, similarity, options, options.tets),
             }],
             note: None,
@@ -164,6 +175,8 @@ pub fn import_parts(mesh: &InputMesh, options: &ImportOptions) -> Result<Importe
         };
         parts.push(ImportedPart {
             name: body.name.clone(),
+            centre: solved.centre,
+            tets,
             body: solved.imported(&own, similarity, options, tets),
         });
     }
@@ -197,6 +210,7 @@ struct Solved {
     volume: VolumeAim,
     mended: RepairReport,
     thickness: Thickness,
+    centre: DVec3,
 }
 
 /// The solid inside one part.
@@ -210,6 +224,10 @@ fn solved(
     let thickness = wall_thickness(&solid, SAMPLES, 1);
     Ok(Solved {
         wall: thickness.of_shell(),
+        centre: match volume {
+            VolumeAim::Exact(_) => centre_of(&surface),
+            _ => counted_centre(&solid),
+        },
         solid: Arc::new(solid),
         volume,
         mended,
@@ -241,14 +259,60 @@ fn welded(
         Some(thickness) => thickness,
         None => return solved(mesh, similarity, VolumeAim::Counted),
     };
+    let bounds = used_bounds(mesh).map(|p| similarity.apply(p));
     Ok(Solved {
         wall: thickness.of_shell(),
         solid: Arc::new(WeldedSolid::new(solids, gap)),
         // In narrow gaps the count is too low.
         volume: VolumeAim::Lattice,
         mended,
+        centre: 0.5 * (bounds[0] + bounds[1]),
         thickness,
     })
+}
+
+/// Centre of the volume inside a closed surface.
+fn centre_of(surface: &Surface) -> DVec3 {
+    let [low, high] = surface.bounds();
+    let middle = 0.5 * (low + high);
+    let (mut sum, mut total) = (DVec3::ZERO, 0.0);
+    for t in 0..surface.triangles.len() {
+        let [a, b, c] = surface.corners(t).map(|p| p - middle);
+        let volume = a.dot(b.cross(c));
+        sum += 0.25 * volume * (a + b + c);
+        total += volume;
+    }
+    let centre = middle + sum / total;
+    if centre.is_finite() { centre } else { middle }
+}
+
+/// Centre of the points of a grid that lie inside, for surfaces that overlap or have holes.
+fn counted_centre(solid: &MeshSolid) -> DVec3 {
+    let [low, high] = solid.bounds();
+    let step = (high - low).max_element() / GRID;
+    let counts = ((high - low) / step).to_array().map(|n| n.ceil() as usize);
+    let extent = step * DVec3::from_array(counts.map(|n| n as f64));
+    let first = 0.5 * (low + high) - 0.5 * extent + 0.5 * step;
+    let points = (0..counts.iter().product::<usize>()).map(|i| {
+        let place = [
+            i % counts[0],
+            i / counts[0] % counts[1],
+            i / counts[0] / counts[1],
+        ];
+        first + step * DVec3::from_array(place.map(|n| n as f64))
+    });
+    let points: Vec<DVec3> = points.collect();
+    let inside = solid.inside_many(&points);
+    let (mut sum, mut number) = (DVec3::ZERO, 0.0);
+    for (p, _) in points.iter().zip(inside).filter(|(_, inside)| *inside) {
+        sum += *p;
+        number += 1.0;
+    }
+    if number > 0.0 {
+        sum / number
+    } else {
+        0.5 * (low + high)
+    }
 }
 
 impl Solved {

@@ -29,6 +29,8 @@
 mod analysis;
 #[cfg(feature = "solver")]
 mod bake;
+#[cfg(feature = "solver")]
+mod bake_file;
 mod cancel;
 #[cfg(feature = "solver")]
 mod cells;
@@ -63,6 +65,8 @@ pub mod weakness;
 
 #[cfg(feature = "solver")]
 pub use bake::{BakeSpec, bake};
+#[cfg(feature = "solver")]
+pub use bake_file::bake_file;
 pub use cancel::CancelToken;
 pub use error::BakeError;
 #[cfg(feature = "solver")]

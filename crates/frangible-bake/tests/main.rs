@@ -18,6 +18,7 @@ mod methods;
 mod modal;
 mod mode_field;
 mod parted;
+mod parts;
 mod rescale;
 mod rupture;
 mod shapes;

@@ -2,8 +2,7 @@
 
 use frangible_mesh::glam::{DMat3, DVec3};
 use frangible_mesh::{
-    MeshSolid, Resolution, Solid, Surface, TetOptions, VolumeAim, WeldedSolid,
-    tetrahedralize,
+    MeshSolid, Resolution, Solid, Surface, TetOptions, VolumeAim, WeldedSolid, tetrahedralize,
 };
 
 use crate::common::{Ball, Block, check_sound};

@@ -6,12 +6,13 @@ use frangible::Asset;
 use frangible::internals::asset::RenderSurface;
 use frangible_bake::{BakeReport, CancelToken, Group, Progress, Shape, check_groups};
 
+use crate::assembly::divide;
 use crate::body::BodySpec;
 use crate::error::SceneError;
 use crate::read::Files;
 use crate::rescale::{Rescale, rescaled};
 use crate::scene::Scene;
-use crate::source::{BodySource, Opened, open_source_from};
+use crate::source::{BodySource, Opened, open_parts, open_source_from};
 
 /// A baked body of a scene.
 #[derive(Clone, Debug)]
@@ -34,10 +35,11 @@ pub fn bake(
     bake_opened(scene, opened, progress)
 }
 
-/// Checks the scene and reads the sources of its bodies. All errors in these are found here, before any computation.
+/// Checks the scene and reads the sources of its bodies, each of which must be one body. All errors in these are found here, before any
+/// computation.
 ///
 /// # Errors
-/// An invalid quantity of the scene, or an invalid file.
+/// An invalid quantity of the scene, an invalid file, or a mesh of several parts, for which there is [`open_scene`].
 pub fn open_sources(scene: &Scene) -> Result<Vec<Opened>, SceneError> {
     open_sources_from(scene, &Files::Disk)
 }
@@ -57,14 +59,80 @@ pub fn open_sources_from(scene: &Scene, files: &Files) -> Result<Vec<Opened>, Sc
             Some(same) => opened[same].clone(),
             None => open_body(body, files)?,
         });
-        if let Some(Opened::Shape { groups, .. }) = opened.last() {
-            check_groups(&body.supports, groups)?;
-        }
-        if let Some(opened) = opened.last().filter(|_| !body.paint.is_empty()) {
-            check_painted(body, opened)?;
-        }
+        check_opened(body, opened.last())?;
     }
     Ok(opened)
+}
+
+/// Checks the scene and reads the sources of its bodies. Each part of a mesh file becomes a body of the scene that is returned, as
+/// [`BodySource::Mesh`] says; a projectile aimed at the mesh is aimed at the largest. All errors in files are found here.
+///
+/// # Errors
+/// An invalid quantity of the scene, or an invalid file.
+pub fn open_scene(scene: &Scene) -> Result<(Scene, Vec<Opened>), SceneError> {
+    open_scene_from(scene, &Files::Disk)
+}
+
+/// Like [`open_scene`], with the given files.
+///
+/// # Errors
+/// The errors of [`open_scene`].
+pub fn open_scene_from(scene: &Scene, files: &Files) -> Result<(Scene, Vec<Opened>), SceneError> {
+    scene.validate()?;
+    let mut bodies: Vec<BodySpec> = Vec::with_capacity(scene.bodies.len());
+    let mut opened: Vec<Opened> = Vec::with_capacity(scene.bodies.len());
+    let mut aims = Vec::with_capacity(scene.bodies.len());
+    for body in &scene.bodies {
+        let known = bodies
+            .iter()
+            .position(|b| (&b.source, &b.rescale) == (&body.source, &body.rescale));
+        let parts = match (known, &body.source) {
+            (None, BodySource::Mesh { .. }) => open_parts(&body.source, files)?.0,
+            _ => Vec::new(),
+        };
+        let first = bodies.len();
+        if parts.len() > 1 {
+            let volumes = || parts.iter().map(|part| part.volume).enumerate();
+            let largest = volumes().fold((0, 0.0), |a, b| if b.1 > a.1 { b } else { a });
+            aims.push(first + largest.0);
+            for (part, source) in divide(body, parts)? {
+                bodies.push(part);
+                opened.push(source);
+            }
+        } else {
+            aims.push(first);
+            bodies.push(body.clone());
+            opened.push(match (known, parts.into_iter().next()) {
+                (Some(same), _) => opened[same].clone(),
+                (None, Some(part)) => part.opened,
+                (None, None) => open_body(body, files)?,
+            });
+        }
+        for (body, opened) in bodies[first..].iter().zip(&opened[first..]) {
+            check_opened(body, Some(opened))?;
+        }
+    }
+    let mut divided = Scene {
+        bodies,
+        ..scene.clone()
+    };
+    for projectile in &mut divided.projectiles {
+        // Checked above.
+        projectile.target = aims.get(projectile.target).copied().unwrap_or(0);
+    }
+    divided.validate()?;
+    Ok((divided, opened))
+}
+
+/// Checks what a body asks of its source.
+fn check_opened(body: &BodySpec, opened: Option<&Opened>) -> Result<(), SceneError> {
+    if let Some(Opened::Shape { groups, .. }) = opened {
+        check_groups(&body.supports, groups)?;
+    }
+    match opened.filter(|_| !body.paint.is_empty()) {
+        Some(opened) => check_painted(body, opened),
+        None => Ok(()),
+    }
 }
 
 /// Refuses paint on a body whose file has no vertex colours, before it is baked.

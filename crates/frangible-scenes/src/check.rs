@@ -16,7 +16,7 @@ use names::{check_output, file_name};
 use projectile::check_projectile;
 use quantity::{direction, quantity, range};
 
-pub(crate) use names::tame;
+pub use names::tame;
 
 /// Largest speed of a ball or a body, m/s: beyond, stress waves steepen into shocks that modes cannot carry.
 const MAX_SPEED: f64 = 300.0;

@@ -57,6 +57,17 @@ pub enum SceneError {
         /// Reason, in words.
         problem: String,
     },
+    /// A mesh of several bodies where one is wanted.
+    #[error(
+        "the file has several bodies, but one is wanted here ({found}); keep the largest (--parts largest, in a scene file: parts = \"largest\"), weld them (--parts weld --gap METRES), or choose one (part = \"NAME\"): {}",
+        path.display()
+    )]
+    SeveralParts {
+        /// Path of the file.
+        path: PathBuf,
+        /// What was found in it.
+        found: String,
+    },
     /// A file of unknown kind.
     #[error(
         "the file extension of `{}` is unknown; give a mesh (.obj, .stl, .ply, .gltf, .glb), tetrahedra (.msh, .node, .ele, .mesh), a baked body (.frangible) or a scene (.toml)",

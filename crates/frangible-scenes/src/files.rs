@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use frangible::Material;
+use frangible_mesh::PartChoice;
 
 use crate::body::BodySpec;
 use crate::builtin::{SCENE_NAMES, scene};
@@ -47,6 +48,7 @@ pub fn scene_of_file_from(path: &Path, files: &Files) -> Result<Scene, SceneErro
             up: Axis::up_in(path),
             resolution: None,
             wall: None,
+            parts: PartChoice::Auto,
         },
     };
     let mut body = BodySpec::new(stem(path), source, Material::preset(MATERIAL)?);

@@ -16,6 +16,7 @@
 mod adhesive;
 mod again;
 mod appearance;
+mod assembly;
 mod bake;
 mod body;
 mod bonds;
@@ -49,9 +50,13 @@ mod text;
 mod touching;
 mod wave;
 
-pub use bake::{BakedBody, bake, bake_opened, bake_until, open_sources, open_sources_from};
+pub use bake::{
+    BakedBody, bake, bake_opened, bake_until, open_scene, open_scene_from, open_sources,
+    open_sources_from,
+};
 pub use body::{BodySpec, Place};
 pub use builtin::{SCENE_NAMES, scene};
+pub use check::tame;
 pub use error::SceneError;
 pub use files::{read_scene, scene_of, scene_of_file, scene_of_file_from};
 pub use first_break::{FirstBreak, first_break};

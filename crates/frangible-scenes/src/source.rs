@@ -3,7 +3,7 @@
 mod asset;
 mod extent;
 mod fit;
-mod mesh;
+mod parts;
 mod ready;
 mod tets;
 
@@ -13,12 +13,14 @@ use std::sync::Arc;
 use frangible::Asset;
 use frangible::internals::asset::RenderSurface;
 use frangible_bake::{Group, Shape};
+use frangible_mesh::PartChoice;
 
 use crate::error::SceneError;
 use crate::read::Files;
 
 pub use asset::{compacted, save_asset, save_compact_asset};
 pub(crate) use extent::bounds;
+pub(crate) use parts::{OpenedPart, open_parts};
 
 /// Source of a body's geometry.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,6 +46,8 @@ pub enum BodySource {
         resolution: Option<usize>,
         /// Thickness of a wall along the surface, m; without it the inside is filled.
         wall: Option<f64>,
+        /// What becomes of several parts.
+        parts: PartChoice,
     },
     /// A baked body (.frangible).
     Asset(PathBuf),
@@ -196,21 +200,15 @@ pub(crate) fn open_source_from(source: &BodySource, files: &Files) -> Result<Ope
     match source {
         BodySource::Shape(shape) => Ok(plain(shape.clone())),
         BodySource::Ready { name, resolution } => Ok(plain(ready::shape(name, *resolution)?)),
-        BodySource::Mesh {
-            path,
-            size,
-            up,
-            resolution,
-            wall,
-        } => {
-            files.check(path, FileKind::Mesh)?;
-            if frangible_mesh::TetFormat::from_extension(path).is_some() {
-                let input = || files.tets(path);
-                return tets::open(input, path, *size, *up, *resolution, *wall);
+        BodySource::Mesh { path, .. } => {
+            let (mut parts, notes) = open_parts(source, files)?;
+            match (parts.pop(), parts.is_empty()) {
+                (Some(only), true) => Ok(only.opened),
+                _ => Err(SceneError::SeveralParts {
+                    path: path.clone(),
+                    found: notes.join("; "),
+                }),
             }
-            let mut input = files.mesh(path)?;
-            fit::fit(&mut input, path, *size, *up)?;
-            mesh::shape(&input, path, *resolution, *wall)
         }
         BodySource::Asset(path) => {
             files.check(path, FileKind::Asset)?;

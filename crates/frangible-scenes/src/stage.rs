@@ -25,7 +25,7 @@ use crate::recorder::{Recorder, Role};
 use crate::scene::Scene;
 
 /// Gap between a standing body and the floor, m.
-const STANDING_GAP: f32 = 1e-4;
+pub(crate) const STANDING_GAP: f32 = 1e-4;
 
 /// Number of bodies above which the colliders are light.
 pub(crate) const FEW: usize = 8;

@@ -17,6 +17,7 @@ mod kinds;
 mod later_projectiles;
 mod loads;
 mod paint;
+mod parts;
 mod replay;
 mod rotation;
 mod scenes;

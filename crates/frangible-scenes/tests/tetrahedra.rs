@@ -1,6 +1,7 @@
 //! Bodies from files of tetrahedra.
 
 use frangible_bake::Shape;
+use frangible_mesh::PartChoice;
 use frangible_scenes::{Axis, BodySource, FileKind, Opened, open_source};
 
 const MESH: &str = "MeshVersionFormatted 2\nDimension 3\nVertices 4\n0 0 0 0\n80 0 0 0\n0 40 0 0\n0 0 20 0\n\
@@ -19,6 +20,7 @@ fn a_file_of_tetrahedra_is_taken_as_it_is_and_refuses_a_resolution() {
         up: Axis::Z,
         resolution,
         wall: None,
+        parts: PartChoice::Auto,
     };
     let opened = open_source(&source(Some(0.08), None));
     let unsized_ = open_source(&source(None, None));

@@ -2,12 +2,16 @@
 
 use frangible::glam::Vec3;
 use frangible_bake::{MOST_MODES, READY_SHAPES, check_supports};
+use frangible_mesh::PartChoice;
 
 use super::quantity::{finite, quantity, range};
 use super::{Fault, LONGEST_NAME, MAX_SPEED, MOST_TETS, SIZES};
 use crate::body::{BodySpec, Place};
 use crate::error::SceneError;
 use crate::source::{BodySource, bounds};
+
+/// Widest gap that is welded, m.
+const MOST_GAP: f64 = 1.0;
 
 /// Highest drop, m.
 const MAX_HEIGHT: f64 = 100.0;
@@ -48,9 +52,20 @@ pub(super) fn check_body(body: &BodySpec) -> Result<(), Fault> {
         size,
         resolution,
         wall,
+        parts,
         ..
     } = &body.source
     {
+        if let PartChoice::Weld { gap: Some(gap) } = *parts
+            && !(0.0..=MOST_GAP).contains(&gap)
+        {
+            let must = "0 to 1 m";
+            return Err(quantity("gap", "the gap that is welded", gap, must));
+        }
+        if wall.is_some() && *parts != PartChoice::Auto {
+            let problem = "the parts of a wall cannot be chosen: all its sheets are one body; remove --parts or --wall (in a scene file: `parts`, `part` or `wall`)";
+            return Err(Fault::new("wall", SceneError::Clash(problem.into())));
+        }
         if let Some(wall) = *wall {
             let must = "above 0 and at most 0.1 m";
             range("wall", "the thickness of the wall", wall, 0.0, 0.1, must)?;

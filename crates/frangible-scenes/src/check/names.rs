@@ -62,7 +62,8 @@ fn is_odd(c: char) -> bool {
 }
 
 /// The nearest name that a scene and its files may have.
-pub(crate) fn tame(name: &str) -> String {
+#[must_use]
+pub fn tame(name: &str) -> String {
     let mut tame = String::new();
     for c in name.chars() {
         let in_front = tame.is_empty() && (c == '.' || c.is_whitespace());

@@ -5,11 +5,11 @@ use std::path::Path;
 use frangible::glam::{Quat, Vec3};
 use frangible::internals::Fatigue;
 use frangible_bake::{PaneShape, Shape, Station};
-use frangible_mesh::did_you_mean;
+use frangible_mesh::{PartChoice, did_you_mean};
 
 use super::convert::{preset, set, short, vector};
 use super::either::{AxisTable, MaterialChoice, RotationChoice};
-use super::schema::{BodyTable, MaterialTable, PaneTable, RotationTable, ShapeTable};
+use super::schema::{BodyTable, MaterialTable, PaneTable, PartsName, RotationTable, ShapeTable};
 use super::support::support;
 use crate::body::{BodySpec, Place};
 use crate::check::Fault;
@@ -55,6 +55,30 @@ pub(super) fn body(table: BodyTable, usual: String, folder: &Path) -> Result<Bod
             "`wall` applies only to a `mesh`; other shapes define their own walls",
         ),
         (
+            "parts",
+            table.parts.is_some(),
+            meshed,
+            "`parts` applies only to a `mesh`; other bodies have one part",
+        ),
+        (
+            "part",
+            table.part.is_some(),
+            meshed,
+            "`part` applies only to a `mesh`; other bodies have one part",
+        ),
+        (
+            "gap",
+            table.gap.is_some(),
+            table.parts == Some(PartsName::Weld),
+            "`gap` applies only to welded parts; set parts = \"weld\"",
+        ),
+        (
+            "part",
+            table.part.is_some(),
+            table.parts.is_none(),
+            "`part` names one part of a mesh, and `parts` is for all; remove one of the two",
+        ),
+        (
             "up",
             table.up.is_some(),
             meshed,
@@ -79,6 +103,7 @@ pub(super) fn body(table: BodyTable, usual: String, folder: &Path) -> Result<Bod
                 up,
                 resolution: table.resolution,
                 wall: table.wall,
+                parts: parts(table.parts, table.gap, table.part),
             }
         }
         (None, None, Some(asset)) => BodySource::Asset(folder.join(asset)),
@@ -195,6 +220,16 @@ fn edit(table: MaterialTable) -> MaterialEdit {
             table.restitution,
             table.friction,
         ],
+    }
+}
+
+fn parts(parts: Option<PartsName>, gap: Option<f64>, part: Option<String>) -> PartChoice {
+    match (parts, part) {
+        (_, Some(name)) => PartChoice::Only(name),
+        (None | Some(PartsName::Auto), None) => PartChoice::Auto,
+        (Some(PartsName::Separate), None) => PartChoice::Separate,
+        (Some(PartsName::Largest), None) => PartChoice::Largest,
+        (Some(PartsName::Weld), None) => PartChoice::Weld { gap },
     }
 }
 

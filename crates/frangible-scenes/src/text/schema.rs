@@ -37,6 +37,9 @@ pub(super) struct BodyTable {
     pub(super) size: Option<f64>,
     pub(super) resolution: Option<usize>,
     pub(super) wall: Option<f64>,
+    pub(super) parts: Option<PartsName>,
+    pub(super) gap: Option<f64>,
+    pub(super) part: Option<String>,
     pub(super) up: Option<AxisTable>,
     pub(super) material: Option<MaterialChoice>,
     pub(super) modes: Option<usize>,
@@ -53,6 +56,16 @@ pub(super) struct BodyTable {
     pub(super) weibull_modulus: Option<f64>,
     pub(super) specimen: Option<f64>,
     pub(super) fatigue: Option<FatigueTable>,
+}
+
+/// What becomes of the parts of a mesh.
+#[derive(Clone, Copy, Deserialize, PartialEq)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum PartsName {
+    Auto,
+    Separate,
+    Largest,
+    Weld,
 }
 
 /// Static fatigue: strength falls with the time that a load lasts.

@@ -16,6 +16,7 @@ use crate::projectile::{Projectile, ProjectileKind};
 use crate::scene::{Adhesive, PieceSpec, Scene};
 use crate::source::BodySource;
 use frangible_bake::pieces::Method;
+use frangible_mesh::PartChoice;
 
 /// The scene as TOML text; reading it gives the same scene, bit for bit.
 #[must_use]
@@ -119,6 +120,7 @@ fn write_body(t: &mut Text, body: &BodySpec) {
             up,
             resolution,
             wall,
+            parts,
         } => {
             t.line("mesh", quoted(&path.to_string_lossy()));
             if let Some(size) = size {
@@ -127,6 +129,18 @@ fn write_body(t: &mut Text, body: &BodySpec) {
             t.line("up", quoted(up.name()));
             if let Some(wall) = wall {
                 t.noted("wall", number(*wall), "m, thickness along the surface");
+            }
+            match parts {
+                PartChoice::Auto => {}
+                PartChoice::Separate => t.line("parts", quoted("separate")),
+                PartChoice::Largest => t.line("parts", quoted("largest")),
+                PartChoice::Weld { gap } => {
+                    t.line("parts", quoted("weld"));
+                    if let Some(gap) = gap {
+                        t.noted("gap", number(*gap), "m, the widest that is welded");
+                    }
+                }
+                PartChoice::Only(name) => t.line("part", quoted(name)),
             }
             if let Some(tets) = resolution {
                 t.noted("resolution", tets, "tetrahedra of the fracture mesh");

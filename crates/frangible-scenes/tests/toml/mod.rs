@@ -7,6 +7,7 @@ use frangible::internals::{CrackPath, CrackTiming, Fatigue};
 use frangible::{FractureConfig, Material};
 use frangible_bake::weakness::{Channel, Paint, Patch, Zone};
 use frangible_bake::{Shape, Station};
+use frangible_mesh::PartChoice;
 use frangible_scenes::{
     Adhesive, Axis, BodySource, BodySpec, FileWish, MaterialEdit, Place, Projectile,
     ProjectileKind, Region, SCENE_NAMES, Scene, Support, parse_scene, read_scene, scene,

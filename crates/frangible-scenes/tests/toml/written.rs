@@ -27,7 +27,10 @@ pub(crate) fn intricate() -> Scene {
         size: Some(0.1 + 0.02),
         up: Axis::X,
         resolution: Some(12_345),
-        wall: Some(0.003),
+        wall: None,
+        parts: PartChoice::Weld {
+            gap: Some(0.1 + 0.2),
+        },
     };
     let mut first = BodySpec::new(
         "first",

@@ -1,0 +1,56 @@
+//! From a mesh file to assets.
+
+use std::path::Path;
+
+use frangible::{Asset, Material};
+use frangible_mesh::read_mesh;
+
+use crate::bake::{BakeSpec, bake};
+use crate::error::BakeError;
+use crate::import::{ImportOptions, import_parts};
+use crate::report::{BakeReport, Progress};
+
+/// Reads a mesh file and bakes each of its parts, in the order of the file. An asset has the name of its part, or of the file if that is one
+/// part. The body frame of an asset has its origin at [`BakeReport::centre`] in the frame of the file, which places the parts to each other.
+///
+/// ```no_run
+/// use frangible::Material;
+/// use frangible_bake::{ImportOptions, bake_file};
+///
+/// let porcelain = Material::preset("porcelain")?;
+/// for (asset, report) in bake_file("lamp.glb", &porcelain, &ImportOptions::default(), &mut |_| {})? {
+///     println!("{}: {:.3} kg, at {}", asset.name, report.mass, report.centre);
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// A file that cannot be read, and the errors of [`import_parts`] and [`bake()`].
+pub fn bake_file(
+    path: impl AsRef<Path>,
+    material: &Material,
+    options: &ImportOptions,
+    progress: &mut dyn FnMut(Progress),
+) -> Result<Vec<(Asset, BakeReport)>, BakeError> {
+    let path = path.as_ref();
+    let mesh = read_mesh(path).map_err(|error| BakeError::File {
+        path: path.to_path_buf(),
+        problem: error.to_string(),
+    })?;
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let imported = import_parts(&mesh, options)?;
+    let mut baked = Vec::with_capacity(imported.parts.len());
+    for part in imported.parts {
+        let name = match part.name.is_empty() {
+            true => stem.clone().into_owned(),
+            false => part.name,
+        };
+        let spec = BakeSpec {
+            groups: part.body.groups,
+            render: part.body.render,
+            ..BakeSpec::new(name, part.body.shape, material.clone())
+        };
+        baked.push(bake(&spec, progress)?);
+    }
+    Ok(baked)
+}
