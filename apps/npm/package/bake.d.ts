@@ -16,6 +16,13 @@ export interface BakeOptions {
   tetrahedra?: number;
   /** Number of vibration modes, default 40. */
   modes?: number;
+  /**
+   * Choice of one body from a mesh of several separate parts, which is refused without it: `'largest'` for the largest alone, `'weld'` for one body
+   * of all. For a body of each part, bake them one by one.
+   */
+  parts?: 'largest' | 'weld';
+  /** With `'weld'`, fill gaps between the parts up to this width, m. Default: only parts that touch. */
+  gap?: number;
   /** Called with the current stage and its completed share, 0 to 1. */
   onProgress?(stage: string, share: number): void;
   /** Location of the second WebAssembly module, if a bundler has moved it. */

@@ -47,7 +47,7 @@ pub enum BakeError {
     Parts(#[from] PartError),
     /// Several bodies where one is wanted.
     #[error(
-        "the mesh has several bodies ({found}); import them with `import_parts`, or choose the largest, or weld them (`ImportOptions::parts`)"
+        "the mesh has several bodies, but one is wanted ({found}); make a body of each part, or choose `largest` or `weld` for its parts"
     )]
     SeveralParts {
         /// What was found.

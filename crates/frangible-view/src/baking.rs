@@ -75,10 +75,11 @@ fn keys(scene: &Scene) -> Vec<BodyKey> {
     scene.bodies.iter().map(BodyKey::of).collect()
 }
 
-/// The scene of a file, or of a body's file.
+/// The scene of a file, or of a body's file, with a body for each part of a mesh.
 #[cfg(feature = "bake")]
 pub(crate) fn scene_in(path: &std::path::Path) -> Result<Scene, SceneError> {
-    frangible_scenes::scene_of_file(path)
+    let scene = frangible_scenes::scene_of_file(path)?;
+    Ok(frangible_scenes::open_scene(&scene)?.0)
 }
 
 /// Refuses every file: without the bake none of its contents could be used.

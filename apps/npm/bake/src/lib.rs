@@ -6,7 +6,7 @@
 use frangible::glam::{Vec2, Vec3};
 use frangible::internals::asset::SaveOptions;
 use frangible::{Asset, Body, Fracture, Material};
-use frangible_bake::frangible_mesh::{InputMesh, Similarity};
+use frangible_bake::frangible_mesh::{InputMesh, PartChoice, Similarity};
 use frangible_bake::pieces::{Method, PieceError, Pieces};
 use frangible_bake::{BakeError, BakeSpec, ImportOptions, Progress, import_mesh};
 
@@ -25,6 +25,8 @@ pub struct Wish {
     pub tetrahedra: usize,
     /// Number of vibration modes to keep.
     pub modes: usize,
+    /// Choice of one body from a mesh of several parts; [`PartChoice::Auto`] refuses such a mesh.
+    pub parts: PartChoice,
 }
 
 /// Makes a mesh from flat lists of numbers: three per vertex, three per triangle; normals and texture coordinates may be empty.
@@ -67,6 +69,7 @@ pub fn bake(
     options.size = (wish.size != 0.0).then_some(wish.size);
     options.wall = (wish.wall != 0.0).then_some(wish.wall);
     options.tets = wish.tetrahedra;
+    options.parts = wish.parts.clone();
     let imported = import_mesh(mesh, &options)?;
     let spec = BakeSpec {
         modes: wish.modes,
@@ -104,6 +107,7 @@ pub fn piece(body: &Body, fracture: &Fracture, number: usize) -> Result<Option<B
 #[cfg(target_arch = "wasm32")]
 pub mod bindings {
     use frangible::Material;
+    use frangible_bake::frangible_mesh::PartChoice;
     use frangible_js::bindings::{Break, WasmBody};
     use js_sys::Function;
     use wasm_bindgen::prelude::*;
@@ -136,7 +140,7 @@ pub mod bindings {
         }
     }
 
-    /// Bakes a mesh. `numbers`: size, wall, tetrahedra, modes. Calls `tell(stage, share)` to report progress.
+    /// Bakes a mesh. `numbers`: size, wall, tetrahedra, modes, gap (NaN for none). `parts`: `largest`, `weld` or empty. Calls `tell(stage, share)` to report progress.
     ///
     /// # Errors
     /// Errors of [`bake`](super::bake), and a name that no material has.
@@ -149,8 +153,16 @@ pub mod bindings {
         numbers: &[f64],
         material: &str,
         name: &str,
+        parts: &str,
         tell: &Function,
     ) -> Result<Baked, JsError> {
+        let parts = match parts {
+            "largest" => PartChoice::Largest,
+            "weld" => PartChoice::Weld {
+                gap: Some(numbers[4]).filter(|gap| !gap.is_nan()),
+            },
+            _ => PartChoice::Auto,
+        };
         let wish = Wish {
             name: name.to_owned(),
             material: Material::preset(material)?,
@@ -158,6 +170,7 @@ pub mod bindings {
             wall: numbers[1],
             tetrahedra: numbers[2] as usize,
             modes: numbers[3] as usize,
+            parts,
         };
         let mut progress = |p: frangible_bake::Progress| {
             let stage = p.stage.to_string();

@@ -18,7 +18,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from ._frangible import __version__
-from .bodies import Body, Fatigue, bake, box, load, read_mesh
+from .bodies import Body, Fatigue, bake, bake_parts, box, load, read_mesh
 from .contacts import Contact, Striker
 from .outcomes import Fragment, Motion, Outcome
 from .world import Thing, World
@@ -38,6 +38,7 @@ __all__ = [
     "World",
     "__version__",
     "bake",
+    "bake_parts",
     "box",
     "load",
     "read_mesh",

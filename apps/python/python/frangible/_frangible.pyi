@@ -12,7 +12,7 @@ __version__: str
 
 def run(words: list[str]) -> int: ...
 def striker(material: str) -> tuple[float, float, float, float]: ...
-def read_mesh(path: str) -> tuple[_Floats, NDArray[np.uint32]]: ...
+def read_mesh(path: str) -> tuple[_Floats, NDArray[np.uint32], list[tuple[str, int, int]]]: ...
 def bake(
     vertices: _Floats,
     faces: NDArray[np.uint32],
@@ -25,7 +25,11 @@ def bake(
     supports: list[str],
     seed: int,
     tell: Callable[[str, float], object] | None,
-) -> tuple[Kind, float, _Floats]: ...
+    groups: list[tuple[str, int, int]],
+    parts: str | None,
+    gap: float | None,
+    single: bool,
+) -> list[tuple[Kind, float, _Floats]]: ...
 
 class Kind:
     @staticmethod

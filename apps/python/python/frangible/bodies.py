@@ -247,9 +247,13 @@ def bake(
     modes: int | None = None,
     supports: str | Sequence[str] = (),
     seed: int = 1,
+    parts: str | None = None,
+    gap: float | None = None,
     progress: Callable[[str, float], object] | None = None,
 ) -> Body:
     """Bakes a mesh into a body that can break. Takes seconds and can be interrupted with Ctrl-C.
+
+    A mesh of several separate parts is refused, unless ``parts`` chooses one body; :func:`bake_parts` makes a body of each.
 
     Args:
         vertices: Array (n, 3), or the path of a mesh file (OBJ, STL, PLY, glTF, GLB), or an object with ``vertices`` and ``faces``, such as a
@@ -265,22 +269,99 @@ def bake(
         supports: Regions in which the body is fixed, in the mesh's frame after scaling to ``size``: ``"below:z:0.01"``, ``"box:0,0,0,0.1,0.1,0.1"``,
             ``"sphere:0,0,0,0.02"``; append ``"@xy"`` to fix x and y only.
         seed: Random seed for the irregularity of the tetrahedra.
+        parts: What to make of several parts: ``"largest"`` for the largest alone, ``"weld"`` for one body of all.
+        gap: With ``"weld"``, fill gaps between the parts up to this width, m. Default: only parts that touch.
         progress: Called with the name of the current stage and its completed share; an exception from it cancels the bake.
 
     Raises:
-        ValueError: The mesh does not describe a solid, or a number is invalid.
+        ValueError: The mesh does not describe a solid, or describes several, or a number is invalid.
     """
+    (body,) = _baked(vertices, faces, material, name, size, wall, tetrahedra, modes, supports, seed, progress, parts, gap, single=True)
+    return body
+
+
+def bake_parts(
+    vertices: ArrayLike | str | os.PathLike[str] | Any,
+    faces: ArrayLike | None = None,
+    *,
+    material: str = "glass",
+    name: str = "body",
+    size: float | None = None,
+    tetrahedra: int | None = None,
+    modes: int | None = None,
+    supports: str | Sequence[str] = (),
+    seed: int = 1,
+    parts: str | None = None,
+    gap: float | None = None,
+    progress: Callable[[str, float], object] | None = None,
+) -> list[Body]:
+    """Bakes each separate part of a mesh into a body of its own.
+
+    Parts that overlap are one body, and so are layers that share faces, unless ``parts`` is ``"separate"``. Parts below 1 % of the volume are left
+    out. Each body has the name of its part in the file. ``body.offset`` places it: the point p of the mesh is at ``body.scale * p + body.offset`` in
+    the body's frame, so that ``-body.offset`` is where the body's centre stands in a world, if the mesh is in metres.
+
+        >>> import frangible as fr
+        >>> import numpy as np
+        >>> places, corners = fr.box(0.1, 0.1, 0.02)
+        >>> two = np.concatenate([places, places + (0.15, 0, 0)]), np.concatenate([corners, corners + len(places)])
+        >>> left, right = fr.bake_parts(*two, tetrahedra=2000, modes=10)
+        >>> bool(abs(left.offset[0] - right.offset[0] - 0.15) < 1e-3)
+        True
+
+    Args:
+        vertices: As in :func:`bake`.
+        faces: As in :func:`bake`.
+        material: Name of the material of all parts.
+        name: Name of the body, if the mesh is one part.
+        size: Length of the longest side of the whole mesh, m. Default: the mesh is in metres.
+        tetrahedra: Approximate number of tetrahedra in all; the parts share it by their volumes, with at least 1000 each. Default 42 000.
+        modes: Number of vibration modes that each body keeps.
+        supports: Regions in which the bodies are fixed, as in :func:`bake`. Each must contain a piece of every part.
+        seed: Random seed for the irregularity of the tetrahedra.
+        parts: ``"separate"`` makes a body also of each layer, ``"largest"`` only of the largest, ``"weld"`` one of all.
+        gap: With ``"weld"``, fill gaps between the parts up to this width, m. Default: only parts that touch.
+        progress: Called with the name of the current stage and its completed share, for one part after the other.
+
+    Raises:
+        ValueError: A part does not describe a solid, there are more than 100, or a number is invalid.
+    """
+    return _baked(vertices, faces, material, name, size, None, tetrahedra, modes, supports, seed, progress, parts, gap, single=False)
+
+
+def _baked(
+    vertices: Any,
+    faces: ArrayLike | None,
+    material: str,
+    name: str,
+    size: float | None,
+    wall: float | None,
+    tetrahedra: int | None,
+    modes: int | None,
+    supports: str | Sequence[str],
+    seed: int,
+    progress: Callable[[str, float], object] | None,
+    parts: str | None,
+    gap: float | None,
+    *,
+    single: bool,
+) -> list[Body]:
+    groups: list[tuple[str, int, int]] = []
+    if faces is None and isinstance(vertices, str | os.PathLike):
+        flat, indices, groups = _frangible.read_mesh(os.fspath(vertices))
+        vertices, faces = flat.reshape(-1, 3), indices.reshape(-1, 3)
     places, corners = mesh(*_both(vertices, faces))
     for what, value in (("size", size), ("wall", wall)):
         if value is not None:
             number(value, what, above=True)
+    if gap is not None:
+        number(gap, "gap")
     for what, count in (("tetrahedra", tetrahedra), ("modes", modes)):
         if count is not None and (int(count) != count or count < 1):
             raise ValueError(f"{what} is {count!r}; give a whole number from 1")
-    kind, scale, offset = _frangible.bake(
-        places.ravel(), corners.ravel(), name, material, size, wall, tetrahedra, modes, strings(supports), seed_of(seed), progress
-    )
-    return Body(kind, scale, offset)
+    held, seeded = strings(supports), seed_of(seed)
+    wanted = name, material, size, wall, tetrahedra, modes, held, seeded, progress, groups, parts, gap, single
+    return [Body(*baked) for baked in _frangible.bake(places.ravel(), corners.ravel(), *wanted)]
 
 
 def _both(vertices: Any, faces: ArrayLike | None) -> tuple[ArrayLike, ArrayLike]:
@@ -310,7 +391,7 @@ def read_mesh(path: str | os.PathLike[str]) -> tuple[Floats, Ints]:
     Raises:
         ValueError: The file cannot be read; the message gives the reason.
     """
-    places, corners = _frangible.read_mesh(os.fspath(path))
+    places, corners, _ = _frangible.read_mesh(os.fspath(path))
     return rows(places, 3), corners.reshape(-1, 3).astype(np.int32)
 
 
