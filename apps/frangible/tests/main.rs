@@ -6,5 +6,6 @@ mod files;
 #[cfg(unix)]
 mod hardship;
 mod modes;
+mod parts;
 #[cfg(feature = "view")]
 mod view;

@@ -13,6 +13,9 @@ const LEAST_SHARE: f64 = 0.01;
 /// A part of at least this share of the largest is never left out, so that many equal ones stay.
 const LIKE_THE_LARGEST: f64 = 0.5;
 
+/// Volumes that differ by a smaller share are the same.
+const SAME_VOLUME: f64 = 1e-9;
+
 /// Most bodies of one mesh.
 const MOST_BODIES: usize = 100;
 
@@ -136,8 +139,8 @@ impl Parts {
                 all.iter().filter(|b| b.volume >= least).cloned().collect()
             }
             PartChoice::Largest => {
-                // The first of equal ones.
-                let is_largest = |b: &&ChosenBody| b.volume >= largest;
+                // The first of equal ones, whatever their rounding.
+                let is_largest = |b: &&ChosenBody| b.volume >= largest * (1.0 - SAME_VOLUME);
                 all.iter().find(is_largest).cloned().into_iter().collect()
             }
             PartChoice::Weld { gap } => {

@@ -111,7 +111,7 @@ fn reach(body: &mut TetBody, start: &[DVec3], moves: &[DVec3], wanted: f64) -> b
             return true;
         }
         let next = factor - off * (factor - before) / (off - at_before);
-        if !(next.abs() <= MOST) {
+        if next.is_nan() || next.abs() > MOST {
             return false;
         }
         (before, at_before) = (factor, off);
