@@ -551,17 +551,94 @@ fn meshes_that_cannot_be_broken_are_refused_in_a_sentence() {
     }
 }
 
+/// Two plates of this size, m, that cross in the middle, as thick as given: thin, but no wall of two faces.
+fn cross_obj(size: f64, thickness: f64) -> String {
+    let (s, t) = (0.5 * size, 0.5 * thickness);
+    let outline = [
+        [t, t],
+        [s, t],
+        [s, -t],
+        [t, -t],
+        [t, -s],
+        [-t, -s],
+        [-t, -t],
+        [-s, -t],
+        [-s, t],
+        [-t, t],
+        [-t, s],
+        [t, s],
+    ];
+    let mut text = String::new();
+    for y in [0.0, size] {
+        for [x, z] in outline {
+            text += &format!("v {x} {y} {z}\n");
+        }
+    }
+    for i in 0..12 {
+        let (a, b) = (i + 1, (i + 1) % 12 + 1);
+        text += &format!("f {a} {b} {} {}\n", b + 12, a + 12);
+    }
+    // Both ends: the square in the middle, and four arms.
+    for first in [1, 13] {
+        let v = |i: usize| first + i % 12;
+        text += &format!("f {} {} {} {}\n", v(0), v(3), v(6), v(9));
+        for arm in [0, 3, 6, 9] {
+            text += &format!(
+                "f {} {} {} {}\n",
+                v(arm),
+                v(arm + 1),
+                v(arm + 2),
+                v(arm + 3)
+            );
+        }
+    }
+    text
+}
+
+#[test]
+fn a_thin_pane_a_bent_sheet_and_a_flat_one_break_without_a_lattice() {
+    let folder = Folder::new("layers");
+    let args = [
+        "--drop",
+        "0.01",
+        "--modes",
+        "12",
+        "--no-pictures",
+        "--no-sound",
+    ];
+    let volume = |mesh: &str, wall: &[&str]| {
+        let args = [&["break", mesh], wall, &args[..]].concat();
+        let report = report(&args, &folder.0.join("out"));
+        let notes = report["notes"].to_string();
+        assert!(
+            !notes.contains("hole") && !notes.contains("beside the drawn"),
+            "{notes}"
+        );
+        report["volume_m3"].as_f64().expect("a volume")
+    };
+    let pane = scene_file(&folder, "pane.obj", &box_obj([0.3, 0.002, 0.3]));
+    assert!((volume(&pane, &[]) / 1.8e-4 - 1.0).abs() < 1e-4);
+    let quad = "v 0 0 0\nv 0.2 0 0\nv 0.2 0 0.1\nv 0 0 0.1\nf 1 4 3 2\n";
+    let sheet = scene_file(&folder, "sheet.obj", quad);
+    assert!((volume(&sheet, &["--wall", "0.004"]) / 8e-5 - 1.0).abs() < 1e-4);
+    let bent = "v 0 0 0\nv 0.1 0.03 0\nv 0.2 0 0\nv 0 0 0.1\nv 0.1 0.03 0.1\nv 0.2 0 0.1\nf 1 4 5 2\nf 2 5 6 3\n";
+    let bent = scene_file(&folder, "bent.obj", bent);
+    for mesh in [&sheet, &bent] {
+        refused_in_a_sentence("layers-out", &["break", mesh], &["--wall METRES"]);
+    }
+}
+
 #[test]
 fn walls_too_thin_are_refused_with_the_resolution_they_need_and_no_folder_is_left() {
     let input = Folder::new("thin");
-    for (thickness, part) in [(0.003, "--resolution "), (0.0001, "make them thicker")] {
-        let mesh = scene_file(&input, "pane.obj", &box_obj([0.3, thickness, 0.3]));
+    for (thickness, part) in [(0.003, "--resolution "), (0.0001, "at least ")] {
+        let mesh = scene_file(&input, "cross.obj", &cross_obj(0.3, thickness));
         let out = input.0.join("out");
         let output = frangible(&["break", &mesh], Some(&out));
         let message = text(&output.stderr);
         assert_eq!(output.status.code(), Some(1), "{message}");
         assert!(
-            message.contains(part) && message.contains("`pane`"),
+            message.contains(part) && message.contains("`cross`"),
             "{message}"
         );
         assert_eq!(message.trim_end().lines().count(), 1, "{message}");

@@ -1,7 +1,8 @@
 //! The main entry point of the bake: shape and material in, asset out.
 //!
 //! A mesh that is too coarse is refined: its volume is compared with that of the solid on a grid four times as fine, and the lattice is
-//! refined while more than 3 % is missing. Shells are meshed with one and a half cells per wall from the start.
+//! refined while more than 3 % is missing. Shells are meshed with one and a half cells per wall from the start. Walls of two faces need no
+//! lattice: both meshes follow the wall.
 //!
 //! Up to 20 000 imported quadratic tetrahedra are used as the analysis mesh; larger meshes are covered by a lattice like any solid.
 
@@ -173,6 +174,7 @@ pub fn bake(
             volume: VolumeAim::Exact(volume),
             ..
         }) => Some(*volume),
+        Shape::Wall(shape) => Some(shape.wall.volume()),
         _ => None,
     };
     let corners = (0..fine.tets.len()).map(|e| fine.corners(e));
@@ -318,6 +320,24 @@ fn meshes(
             (true, true) => Coarse::Mesh(fine.clone()),
             (true, false) => Coarse::Linear,
             (false, _) => Coarse::Cover(shapes::tets::cover_elements(shape, spec.analysis)),
+        };
+        return Ok(Meshes {
+            fine,
+            coarse,
+            tetrahedra: None,
+        });
+    }
+    if let Shape::Wall(shape) = &spec.shape {
+        let wanted = || spec.shape.size_for(shape.tets as f64);
+        let fine = spec
+            .shape
+            .fracture_mesh(spec.fracture.map_or_else(wanted, Ok)?, spec.seed)?;
+        let size = spec
+            .analysis
+            .map_or_else(|| spec.shape.analysis_size(), Ok)?;
+        let coarse = match shapes::wall::analysis_mesh(shape, size)? {
+            Some(coarse) => Coarse::Mesh(coarse),
+            None => Coarse::Cover(shapes::wall::estimate(shape, size) as usize),
         };
         return Ok(Meshes {
             fine,

@@ -97,6 +97,21 @@ pub enum BakeError {
         /// Its signed volume, m³.
         volume: f64,
     },
+    /// A wall that bends so sharply that its elements would cross.
+    #[error(
+        "a wall of {thickness:.2e} m bends too sharply for elements of {edge:.2e} m; make it thinner, or request more tetrahedra"
+    )]
+    Fold {
+        /// Thickness of the wall, m.
+        thickness: f64,
+        /// Edge length of the elements, m.
+        edge: f64,
+    },
+    /// An open sheet without thickness.
+    #[error(
+        "the surface is an open sheet that encloses no body; give it a thickness with `--wall METRES` (in Rust, `ImportOptions::wall`), or close it"
+    )]
+    OpenSheet,
     /// A support that cannot be used.
     #[error("support {support} {problem}")]
     Support {

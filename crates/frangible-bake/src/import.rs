@@ -7,11 +7,12 @@ use frangible::glam::DVec3;
 use frangible::internals::asset::{RenderMaterial, RenderSurface};
 use frangible_mesh::{
     InputMesh, MeshSolid, PartChoice, Parts, RepairReport, Similarity, SkinWall, Solid, Surface,
-    Thickness, VolumeAim, WeldedSolid, repair, wall_thickness,
+    Thickness, VolumeAim, Wall, WeldedSolid, repair, repair_skin, wall_thickness,
 };
 
 use crate::error::{BakeError, positive};
 use crate::groups::Group;
+use crate::import_walls::{layered, measures, sheet};
 use crate::shapes::{Shape, SolidShape};
 
 /// Places at which the walls are measured: the twentieth of them that is thinnest is then twenty or so.
@@ -98,6 +99,9 @@ pub struct ImportedParts {
 
 /// Repairs a mesh of one body and determines its interior and wall thickness.
 ///
+/// A thin wall, given by its two faces or as a sheet with [`ImportOptions::wall`], becomes a [`Shape::Wall`]. Anything else is filled by a
+/// lattice, as a [`Shape::Solid`].
+///
 /// # Errors
 /// The mesh does not describe a solid, or describes several and [`ImportOptions::parts`] does not choose one, or a value is invalid.
 pub fn import_mesh(mesh: &InputMesh, options: &ImportOptions) -> Result<Imported, BakeError> {
@@ -129,13 +133,19 @@ pub fn import_parts(mesh: &InputMesh, options: &ImportOptions) -> Result<Importe
         if options.parts != PartChoice::Auto {
             return Err(BakeError::PartsOfWall);
         }
-        let (surface, mended) = repaired(mesh, &similarity)?;
-        let solid = MeshSolid::new(&surface)?;
+        let (mut surface, mended) = repair_skin(mesh)?;
+        if similarity != Similarity::IDENTITY {
+            surface.transform(&similarity);
+        }
+        let layers = (mended.shells == 1)
+            .then(|| Wall::of_skin(&surface, wall))
+            .flatten();
         let body = Solved {
-            thickness: wall_thickness(&solid, SAMPLES, 1),
-            solid: Arc::new(SkinWall::new(solid, wall)),
+            thickness: measures(layers.as_ref(), wall),
+            solid: Arc::new(SkinWall::new(MeshSolid::skin(&surface)?, wall)),
             wall: Some(wall),
             volume: VolumeAim::Lattice,
+            layers,
             mended,
             centre: centre_of(&surface),
         };
@@ -206,6 +216,8 @@ fn repaired(
 /// A solid, and what is known of it.
 struct Solved {
     solid: Arc<dyn Solid>,
+    /// The wall that it is, to be meshed in layers if that succeeds.
+    layers: Option<Wall>,
     wall: Option<f64>,
     volume: VolumeAim,
     mended: RepairReport,
@@ -220,9 +232,11 @@ fn solved(
     volume: VolumeAim,
 ) -> Result<Solved, BakeError> {
     let (surface, mended) = repaired(mesh, similarity)?;
+    sheet(&surface, &mended)?;
     let solid = MeshSolid::new(&surface)?;
     let thickness = wall_thickness(&solid, SAMPLES, 1);
     Ok(Solved {
+        layers: Wall::of_closed(&surface, &mended),
         wall: thickness.of_shell(),
         centre: match volume {
             VolumeAim::Exact(_) => centre_of(&surface),
@@ -263,6 +277,7 @@ fn welded(
     Ok(Solved {
         wall: thickness.of_shell(),
         solid: Arc::new(WeldedSolid::new(solids, gap)),
+        layers: None,
         // In narrow gaps the count is too low.
         volume: VolumeAim::Lattice,
         mended,
@@ -323,15 +338,16 @@ impl Solved {
         options: &ImportOptions,
         tets: usize,
     ) -> Imported {
-        let shape = SolidShape {
+        let lattice = SolidShape {
             wall: self.wall,
             tets,
             most: options.most.unwrap_or((3 * options.tets).max(250_000)),
             volume: self.volume,
             ..SolidShape::new(self.solid)
         };
+        let layers = self.layers.and_then(|wall| layered(wall, tets));
         Imported {
-            shape: Shape::Solid(shape),
+            shape: layers.unwrap_or(Shape::Solid(lattice)),
             render: (options.wall.is_none()).then(|| drawn(mesh, &similarity)),
             groups: Group::of_mesh(mesh, &similarity),
             mended: self.mended,

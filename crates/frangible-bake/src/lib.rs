@@ -48,6 +48,7 @@ mod followed;
 mod groups;
 mod import;
 mod import_tets;
+mod import_walls;
 mod mesh;
 pub mod mode_field;
 mod phase;
@@ -82,6 +83,7 @@ pub use mode_field::ModeField;
 pub use report::{BakeReport, MeshReport, Progress, Stage};
 pub use shapes::{
     AnalysisChoice, MeshSize, PaneShape, READY_SHAPES, Shape, SolidShape, Station, TetShape,
+    WallShape,
 };
 pub use supports::{Region, Support, check_groups, check_supports};
 

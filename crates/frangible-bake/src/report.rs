@@ -86,7 +86,7 @@ pub struct BakeReport {
     pub analysis: MeshReport,
     /// The fracture mesh.
     pub fracture: MeshReport,
-    /// Report of filling a solid with tetrahedra; `None` for boxes and bodies of revolution.
+    /// Report of filling a solid with tetrahedra; `None` for boxes, bodies of revolution and thin walls.
     pub tetrahedra: Option<TetReport>,
     /// Unknowns of the eigenvalue problem.
     pub unknowns: usize,
@@ -104,8 +104,8 @@ pub struct BakeReport {
     pub cells: usize,
     /// Mass, kg.
     pub mass: f64,
-    /// Volume inside the closed surface from which the body was made, m³, if it is known. The fracture mesh has it, unless the
-    /// mesher could not move its surface that far.
+    /// Volume inside the closed surface from which the body was made, or of the wall along a sheet, m³, if it is known. The fracture mesh has
+    /// it, unless the mesher could not move its surface that far.
     pub closed_volume: Option<f64>,
     /// Centre of mass in the frame of the shape, m: the origin of the body frame.
     pub centre: DVec3,

@@ -11,6 +11,7 @@ mod input;
 mod mend_tets;
 mod parts;
 pub mod quality;
+mod random;
 #[cfg(feature = "mesh-io")]
 mod read;
 #[cfg(feature = "mesh-io")]
@@ -25,6 +26,7 @@ mod surface;
 mod tet_input;
 mod tetrahedralize;
 mod tets;
+mod wall;
 mod watch;
 mod winding;
 
@@ -41,7 +43,7 @@ pub use read::{
 };
 #[cfg(feature = "mesh-io")]
 pub use read_tets::{TetFormat, parse_tetgen, parse_tets, read_tets};
-pub use repair::{RepairError, RepairReport, repair};
+pub use repair::{RepairError, RepairReport, repair, repair_skin};
 pub use shapes::{READY_SHAPES, ready_shape};
 pub use similarity::Similarity;
 pub use solid::{Solid, SurfacePoint};
@@ -54,6 +56,7 @@ pub use tetrahedralize::{
 };
 pub use tets::TetBody;
 pub use tets::features::Features;
+pub use wall::{Wall, WallMesh};
 pub use winding::{
     MeshSolid, Nearest, SkinWall, SolidError, Thickness, WeldedSolid, wall_thickness,
 };

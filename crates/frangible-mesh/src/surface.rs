@@ -18,6 +18,20 @@ impl Surface {
         self.triangles[t].map(|v| self.positions[v as usize])
     }
 
+    /// Returns how much of the surface faces one way: the length of its mean normal, 1 for a flat sheet, 1/2 for half a sphere, 0 for a closed
+    /// surface.
+    #[must_use]
+    pub fn facing(&self) -> f64 {
+        let (mut sum, mut area) = (DVec3::ZERO, 0.0);
+        for t in 0..self.triangles.len() {
+            let [a, b, c] = self.corners(t);
+            let normal = (b - a).cross(c - a);
+            sum += normal;
+            area += normal.length();
+        }
+        if area > 0.0 { sum.length() / area } else { 0.0 }
+    }
+
     /// Lowest and highest corner of the bounding box of all vertices, m.
     #[must_use]
     pub fn bounds(&self) -> [DVec3; 2] {

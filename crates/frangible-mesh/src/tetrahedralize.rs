@@ -221,7 +221,7 @@ pub fn tetrahedralize_watched(
         if draft.body.tets.len() > options.most {
             return Err(TetError::TooThin {
                 wall: options.wall.unwrap_or(cell * CELLS_PER_WALL),
-                needed: draft.body.tets.len(),
+                needed: needed(solid, draft, cell),
                 limit: options.most,
             });
         }
@@ -245,6 +245,22 @@ pub fn tetrahedralize_watched(
         watch.start_over();
         draft = stuff(solid, cell)?;
         watch.reach(0.3)?;
+    }
+}
+
+/// Tetrahedra that resolve a body of which a draft misses a part, so that a caller who requests them is not told a larger number next.
+fn needed(solid: &dyn Solid, mut draft: Draft, cell: f64) -> usize {
+    let tets = draft.body.tets.len();
+    keep_largest(&mut draft);
+    let counted = counted_volume(solid, 0.25 * cell);
+    let off = (draft.body.volume() / counted - 1.0).abs();
+    // The missing volume shrinks with the square of the cell, and the number grows with its cube.
+    let finer = (off / VOLUME_OFF).max(1.0).powf(1.5);
+    let needed = tets as f64 * finer;
+    if needed.is_finite() {
+        needed as usize
+    } else {
+        tets
     }
 }
 

@@ -13,5 +13,6 @@ mod repair;
 mod shapes;
 mod tetrahedra;
 mod tets;
+mod wall;
 mod welded;
 mod winding;

@@ -285,6 +285,8 @@ fn mendable(spec: &frangible_bake::BakeSpec, error: frangible_bake::BakeError) -
     }
     SceneError::WaferWalls {
         body,
+        // Of a wall of one area, the number of cells goes with the inverse square of its thickness.
+        least_mm: wall_mm * (needed as f64 / MOST_TETS as f64).sqrt(),
         wall_mm,
         limit: MOST_TETS,
     }

@@ -152,7 +152,7 @@ pub enum SceneError {
     },
     /// Walls that no allowed number of tetrahedra resolves.
     #[error(
-        "`{body}` has walls of {wall_mm:.3} mm, too thin for a body of its size within the limit of {limit} tetrahedra; make them thicker, or the body smaller"
+        "`{body}` has walls of {wall_mm:.3} mm, too thin for a body of its size within the limit of {limit} tetrahedra; make them thicker, at least {least_mm:.1} mm"
     )]
     WaferWalls {
         /// Name of the body.
@@ -161,6 +161,8 @@ pub enum SceneError {
         wall_mm: f64,
         /// Largest allowed number of tetrahedra.
         limit: usize,
+        /// Thickness of walls that the limit allows, mm.
+        least_mm: f64,
     },
     /// An unbaked body, in a build that cannot bake.
     #[error(

@@ -1,5 +1,6 @@
 //! Shapes of bodies and their meshes. Boxes and bodies of revolution are triangulated sheets extruded through the thickness, coarse and
-//! regular for the modes, fine and irregular for the cracks; other solids are filled by the lattice mesher of `frangible-mesh`.
+//! regular for the modes, fine and irregular for the cracks. Thin walls from files are meshed alike, along one of their faces. Other solids
+//! are filled by the lattice mesher of `frangible-mesh`.
 
 mod block;
 mod pane;
@@ -8,12 +9,14 @@ mod ready;
 mod revolution;
 pub(crate) mod solid;
 pub(crate) mod tets;
+pub(crate) mod wall;
 
 pub use frangible_mesh::READY_SHAPES;
 pub use pane::PaneShape;
 pub use profile::Station;
 pub use solid::SolidShape;
 pub use tets::{AnalysisChoice, TetShape};
+pub use wall::WallShape;
 
 use crate::error::{BakeError, positive};
 use crate::mesh::BodyMesh;
@@ -55,6 +58,8 @@ pub enum Shape {
     Solid(SolidShape),
     /// Tetrahedra from a file, used unchanged.
     Tets(TetShape),
+    /// A thin wall: a closed mesh with two parallel faces, or a sheet with a thickness.
+    Wall(WallShape),
 }
 
 impl Shape {
@@ -137,6 +142,7 @@ impl Shape {
             Self::Revolution { profile } => Ok(Profile::new(profile)?.area_and_volume().1),
             Self::Solid(shape) => solid::volume(shape),
             Self::Tets(shape) => Ok(shape.body.volume()),
+            Self::Wall(shape) => Ok(shape.wall.volume()),
         }
     }
 
@@ -145,6 +151,9 @@ impl Shape {
     /// # Errors
     /// A value or a station of the profile is invalid.
     pub fn analysis_size(&self) -> Result<MeshSize, BakeError> {
+        if let Self::Wall(shape) = self {
+            return Ok(wall::analysis_size(shape));
+        }
         self.size_for(ANALYSIS_TETS)
     }
 
@@ -168,6 +177,10 @@ impl Shape {
         if let Self::Tets(shape) = self {
             return Ok(solid::size_for(shape.body.volume(), tets));
         }
+        if let Self::Wall(shape) = self {
+            positive("the number of tetrahedra wanted", tets)?;
+            return Ok(wall::size_for(shape, tets));
+        }
         let mut edge = self.volume()?.cbrt();
         while self.estimate(MeshSize { edge, layers: 0 })? < tets {
             edge *= 0.98;
@@ -183,6 +196,7 @@ impl Shape {
             Self::Revolution { profile } => revolution::estimate(&Profile::new(profile)?, size),
             Self::Solid(shape) => solid::estimate(solid::volume(shape)?, size),
             Self::Tets(shape) => shape.body.tets.len() as f64,
+            Self::Wall(shape) => wall::estimate(shape, size),
         })
     }
 
@@ -200,6 +214,10 @@ impl Shape {
                 solid::mesh(shape, Some(size.edge), None, &mut solid::unwatched).map(|m| m.0)
             }
             Self::Tets(shape) => tets::mesh(shape),
+            Self::Wall(shape) => wall::analysis_mesh(shape, size)?.ok_or(BakeError::Fold {
+                thickness: shape.wall.thickness(),
+                edge: size.edge,
+            }),
         }
     }
 
@@ -219,6 +237,7 @@ impl Shape {
                 solid::mesh(shape, Some(size.edge), Some(seed), &mut solid::unwatched).map(|m| m.0)
             }
             Self::Tets(shape) => tets::mesh(shape),
+            Self::Wall(shape) => wall::mesh(shape, size, seed),
         }
     }
 

@@ -38,7 +38,7 @@ pub enum RepairError {
     NoArea(usize),
     /// All in a plane.
     #[error(
-        "the mesh is flat: all its vertices lie in one plane; extrude it to give it a thickness"
+        "the mesh is flat: all its vertices lie in one plane; give it a thickness with `--wall METRES`, or extrude it"
     )]
     Flat,
     /// NaN, infinite, or absurdly far away.
@@ -67,6 +67,18 @@ pub enum RepairError {
 /// # Errors
 /// [`RepairError`] if there is nothing that could bound a solid. A bent open sheet is no error here.
 pub fn repair(mesh: &InputMesh) -> Result<(Surface, RepairReport), RepairError> {
+    mended(mesh, false)
+}
+
+/// Like [`repair`], for a surface that need not enclose anything, such as a flat sheet.
+///
+/// # Errors
+/// [`RepairError`] if no triangle has an area.
+pub fn repair_skin(mesh: &InputMesh) -> Result<(Surface, RepairReport), RepairError> {
+    mended(mesh, true)
+}
+
+fn mended(mesh: &InputMesh, may_be_flat: bool) -> Result<(Surface, RepairReport), RepairError> {
     let (bounds, used) = check(mesh)?;
     let diagonal = (bounds[1] - bounds[0]).length();
     let faces_in = mesh.triangles.len();
@@ -86,7 +98,7 @@ pub fn repair(mesh: &InputMesh) -> Result<(Surface, RepairReport), RepairError> 
         return Err(RepairError::NoArea(faces_in));
     }
     report.duplicate = duplicates::drop_duplicates(&mut triangles, positions.len());
-    if is_flat(&positions, diagonal) {
+    if !may_be_flat && is_flat(&positions, diagonal) {
         return Err(RepairError::Flat);
     }
     wind(&positions, &mut triangles, &mut report);

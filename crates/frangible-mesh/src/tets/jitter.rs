@@ -3,6 +3,7 @@
 use frangible_geometry::Rows;
 use glam::DVec3;
 
+use crate::random::symmetric;
 use crate::solid::Solid;
 use crate::tets::Draft;
 use crate::tets::local::badness_around;
@@ -37,13 +38,4 @@ pub(crate) fn jitter(draft: &mut Draft, fixed: &[bool], solid: &dyn Solid, cell:
             }
         }
     }
-}
-
-/// A number in −1..1 that depends on seed and index only (the finaliser of SplitMix64).
-fn symmetric(seed: u64, index: u64) -> f64 {
-    let mut z = seed.wrapping_mul(0xD1B5_4A32_D192_ED03)
-        ^ index.wrapping_add(1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-    ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
 }

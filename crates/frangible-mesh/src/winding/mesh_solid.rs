@@ -84,6 +84,24 @@ impl MeshSolid {
     /// # Errors
     /// See [`SolidError`].
     pub fn new(surface: &Surface) -> Result<Self, SolidError> {
+        let mut solid = Self::skin(surface)?;
+        let mut highest = f64::NEG_INFINITY;
+        for _ in 0..2 {
+            let found = solid.highest_winding_number();
+            if found > CLEARLY_INSIDE {
+                return Ok(solid);
+            }
+            highest = highest.max(found);
+            solid.turned = !solid.turned;
+        }
+        Err(SolidError::NoInside { highest })
+    }
+
+    /// Reads a surface that need not enclose anything, such as a flat sheet, for the closest places on it.
+    ///
+    /// # Errors
+    /// See [`SolidError`].
+    pub fn skin(surface: &Surface) -> Result<Self, SolidError> {
         let triangles = checked(surface)?;
         let nothing = [DVec3::INFINITY, DVec3::NEG_INFINITY];
         let corners = triangles.iter().flat_map(|(_, corners)| corners);
@@ -99,22 +117,12 @@ impl MeshSolid {
             .sum();
         let tree = tree::build(&triangles);
         let far = far::expand(&tree);
-        let mut solid = Self {
+        Ok(Self {
             tree,
             far,
             bounds,
             turned: volume < 0.0,
-        };
-        let mut highest = f64::NEG_INFINITY;
-        for _ in 0..2 {
-            let found = solid.highest_winding_number();
-            if found > CLEARLY_INSIDE {
-                return Ok(solid);
-            }
-            highest = highest.max(found);
-            solid.turned = !solid.turned;
-        }
-        Err(SolidError::NoInside { highest })
+        })
     }
 
     /// Number of times the surface goes around `p`: 1 in a closed body, 0 outside, between them near holes [J13 §3]. Exact but

@@ -17,6 +17,7 @@ pub(crate) fn bounds(shape: &Shape) -> Option<[DVec3; 2]> {
             around(points.flat_map(|[r, z]| [DVec3::new(-r, -r, z), DVec3::new(r, r, z)]))
         }
         Shape::Solid(shape) => shape.solid.bounds(),
+        Shape::Wall(shape) => shape.wall.bounds(),
         Shape::Tets(shape) => around(shape.body.positions.iter().copied()),
         _ => return None,
     })

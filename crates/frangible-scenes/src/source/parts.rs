@@ -65,6 +65,12 @@ pub(crate) fn open_parts(
         // Welding is no news: every STL has its corners doubled, and every mesh with a texture its seams.
         let mended = RepairReport {
             welded: 0,
+            // A sheet that becomes a wall ends somewhere.
+            boundary_loops: if wall.is_some() {
+                0
+            } else {
+                body.mended.boundary_loops
+            },
             ..body.mended
         };
         let mut notes = Vec::new();
