@@ -28,7 +28,7 @@ const FILM: [(&str, f64); 5] = [
     ("statue", 8.0),
     ("bottle", 16.0),
     ("piggy-bank", 10.0),
-    ("bulb", 12.0),
+    ("plate", 10.0),
 ];
 
 /// Size of its pictures, pixels, pictures a second, seconds of each scene, and quality of 100.
