@@ -180,3 +180,15 @@ def test_a_mesh_file_is_read(tmp_path) -> None:
     got, corners = fr.read_mesh(tmp_path / "box.obj")
     np.testing.assert_allclose(got, vertices, atol=1e-7)
     np.testing.assert_array_equal(corners, faces)
+
+
+def test_separate_parts_are_bodies_of_their_own() -> None:
+    places, corners = fr.box(0.06, 0.06, 0.04)
+    far = places * 0.5 + (0.0, 0.08, 0.0)
+    mesh = np.concatenate([places, far]), np.concatenate([corners, corners + len(places)])
+    large, small = fr.bake_parts(*mesh, tetrahedra=3000, modes=8)
+    assert large.mass == pytest.approx(8 * small.mass, rel=0.02)
+    np.testing.assert_allclose(large.offset - small.offset, (0.0, 0.08, 0.0), atol=1e-3)
+    with pytest.raises(ValueError, match="bake_parts|largest"):
+        fr.bake(*mesh, tetrahedra=3000, modes=8)
+    assert fr.bake(*mesh, tetrahedra=3000, modes=8, parts="largest").mass == pytest.approx(large.mass, rel=0.02)
