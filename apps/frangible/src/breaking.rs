@@ -161,7 +161,8 @@ fn sound_notes(sounded: &Sounded) -> Vec<String> {
     notes
 }
 
-/// Share of its volume by which the mesh of a body may differ from the drawn surface without a note.
+/// Share of its volume by which the mesh of a wall may differ from the drawn surface without a note. What a lattice loses at sharp corners is in the
+/// report.
 const VOLUME_OFF: f64 = 1e-3;
 
 /// Notes on the loose pieces and sharp features that the mesher left out.
@@ -169,11 +170,12 @@ fn mesh_notes(scene: &Scene, baked: &[BakedBody]) -> Vec<String> {
     let mut notes = Vec::new();
     for (body, baked) in scene.bodies.iter().zip(baked) {
         if let Some(report) = &baked.report
+            && report.tetrahedra.is_none()
             && let Some(drawn) = report.closed_volume
             && (report.fracture.volume / drawn - 1.0).abs() > VOLUME_OFF
         {
             notes.push(format!(
-                "{}: the mesh has {:+.2} % of volume beside the drawn surface; raise --resolution to come closer",
+                "{}: the mesh of its wall has {:+.2} % of volume beside the drawn surface; raise --resolution to come closer",
                 body.name,
                 100.0 * (report.fracture.volume / drawn - 1.0)
             ));
