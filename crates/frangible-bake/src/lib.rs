@@ -53,7 +53,7 @@ mod mesh;
 pub mod mode_field;
 mod phase;
 pub mod pieces;
-mod random;
+use frangible_mesh::random;
 mod report;
 pub mod shapes;
 mod sheet;

@@ -11,7 +11,8 @@ mod input;
 mod mend_tets;
 mod parts;
 pub mod quality;
-mod random;
+#[doc(hidden)]
+pub mod random;
 #[cfg(feature = "mesh-io")]
 mod read;
 #[cfg(feature = "mesh-io")]
