@@ -46,7 +46,7 @@
 #define FRANGIBLE_STRIKER_BREAKABLE 3
 
 /**
- * What came of a call.
+ * Status of a call.
  */
 enum frangible_status
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
@@ -123,7 +123,7 @@ typedef struct {
 } frangible_body;
 
 /**
- * What hits a body. `frangible_striker_of` fills it for a material.
+ * Striker of a body. `frangible_striker_of` fills it for a material.
  */
 typedef struct {
   /**
@@ -250,7 +250,7 @@ typedef struct {
 } frangible_outcome;
 
 /**
- * What a kind is.
+ * Properties of a kind of body.
  */
 typedef struct {
   /**
@@ -390,7 +390,7 @@ typedef struct {
 } frangible_hulls;
 
 /**
- * What came of a blow.
+ * Result of a blow.
  */
 typedef struct {
   /**
@@ -460,7 +460,7 @@ typedef struct {
 } frangible_report;
 
 /**
- * What came of a blow at one contact.
+ * Result of a blow at one contact.
  */
 typedef struct {
   /**

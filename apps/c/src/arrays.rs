@@ -32,7 +32,7 @@ pub(crate) struct Arrays {
     surface: OnceLock<Surface>,
 }
 
-/// What has arrays.
+/// Source of flat arrays.
 #[derive(Clone, Copy)]
 pub(crate) enum Whose<'a> {
     /// A whole body.

@@ -46,7 +46,7 @@ pub unsafe extern "C" fn frangible_striker_of(
     })
 }
 
-/// What a caller gives of a blow.
+/// Arguments of a blow, as the caller gives them.
 #[derive(Clone, Copy)]
 pub(crate) struct Given {
     pub(crate) contacts: *const frangible_contact,

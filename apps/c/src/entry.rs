@@ -1,4 +1,4 @@
-//! What every exported function goes through: panics end here, and failures leave a code and a text.
+//! The frame of every exported function: it catches panics, and turns failures into a code and a text.
 #![expect(unsafe_code, reason = "an exported name is an unsafe attribute")]
 #![expect(
     non_camel_case_types,
@@ -10,7 +10,7 @@ use std::ffi::{CString, c_char};
 use std::fmt::Display;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// What came of a call.
+/// Status of a call.
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum frangible_status {
@@ -61,7 +61,7 @@ thread_local! {
 
 /// Runs the work of an exported function. No panic leaves it.
 pub(crate) fn entry(work: impl FnOnce() -> Result<(), Failure>) -> frangible_status {
-    // What a panic may leave behind is behind a lock, and sound: the core takes bodies by shared reference.
+    // A panic leaves sound data behind: handles are behind a lock, and the core takes bodies by shared reference.
     let Failure(status, text) = match catch_unwind(AssertUnwindSafe(work)) {
         Ok(Ok(())) => return frangible_status::Ok,
         Ok(Err(failure)) => failure,

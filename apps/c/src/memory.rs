@@ -191,7 +191,7 @@ impl<T: Copy> Place<T> {
     /// A place for several that may be missing: null is none.
     ///
     /// # Safety
-    /// As that of [`Place::of`].
+    /// The same as for [`Place::of`].
     pub(crate) unsafe fn optional(
         pointer: *mut T,
         count: usize,

@@ -18,13 +18,13 @@ use crate::types::{
     frangible_striker,
 };
 
-/// What came of a blow. Without fragments the body held.
+/// Outcome of a blow. Without fragments the body held.
 pub(crate) struct Came {
     /// The body that broke.
     body: Option<Body>,
     margin: f64,
     fracture: Fracture,
-    /// Of each fragment.
+    /// Flat arrays of each fragment, filled on request.
     arrays: Vec<Arrays>,
 }
 

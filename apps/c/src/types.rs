@@ -65,7 +65,7 @@ pub struct frangible_motion {
     pub angular: [f64; 3],
 }
 
-/// What hits a body. `frangible_striker_of` fills it for a material.
+/// Striker of a body. `frangible_striker_of` fills it for a material.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct frangible_striker {
@@ -118,7 +118,7 @@ pub struct frangible_contact {
     pub duration: f64,
 }
 
-/// What a kind is.
+/// Properties of a kind of body.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct frangible_about {
@@ -200,7 +200,7 @@ pub struct frangible_hulls {
     pub ends: *const usize,
 }
 
-/// What came of a blow.
+/// Result of a blow.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct frangible_report {
@@ -238,7 +238,7 @@ pub struct frangible_report {
     pub seconds: f64,
 }
 
-/// What came of a blow at one contact.
+/// Result of a blow at one contact.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct frangible_contact_report {

@@ -19,7 +19,7 @@ use crate::*;
 /// Calls at most.
 const CALLS: usize = 40;
 
-/// What a call returns whose work panics.
+/// Status of a call that panics inside.
 #[must_use]
 pub fn panicking() -> frangible_status {
     entry(|| panic!("on purpose"))

@@ -13,7 +13,8 @@ use crate::material::Material;
 /// Largest depth of a groove as a share of the thickness, so that the remaining wall has an area.
 const DEEPEST: f64 = 0.95;
 
-/// Shape factor F of an edge crack in bending, for a share of the thickness from 0 to 1; within 2.5 %.
+/// Shape factor F of an edge crack in bending, for a share of the thickness from 0 to 1. Up to 0.6 it is within 2.5 % of Brown
+/// and Srawley's series (ASTM STP 410, 1966).
 fn bending_shape(share: f64) -> f64 {
     let half = FRAC_PI_2 * share.max(1e-6);
     let (sin, cos) = (libm::sin(half), libm::cos(half));
