@@ -303,3 +303,50 @@ fn a_shelf_of_glass_breaks_under_a_load_that_lasts() {
     assert!(found > 0.3 * expected, "{found} s");
     assert_eq!(holds_for(share, false, 2.0 * found), None);
 }
+
+/// Time, s, at which a sleeping block breaks whose load exceeds its strength after four seconds, with or without static fatigue; at most 30 s.
+fn sleeper_breaks_at(tires: bool) -> Option<f64> {
+    let half = Vec3::splat(0.05);
+    let mut world = world(true);
+    world
+        .insert_fixed_half_space(Vector::ZERO, Vector::Y, SurfaceProperties::STONE)
+        .unwrap();
+    let mut fields = Fields::default();
+    fields.fatigue = Preset::named("glass").unwrap().fatigue.filter(|_| tires);
+    let kind = Breakable::new(box_asset(half, [1, 1, 1])).unwrap();
+    let block = kind.with_fields(fields).unwrap().body(1);
+    let start = at(0.0, 0.05, 0.0);
+    let block = world
+        .insert_breakable(block, start, Vector::ZERO, Vector::ZERO)
+        .unwrap();
+    world.set_rest_function(move |_, _, _, config| {
+        Ok(if config.load_duration > 5.0 {
+            Outcome::Broke(Box::new(sliced(half, [2, 2, 2], 0.0, 0.0)))
+        } else {
+            Outcome::Held {
+                margin: 1.02,
+                report: Default::default(),
+                state: None,
+            }
+        })
+    });
+    let mut slept = false;
+    while world.time() < 30.0 {
+        if world.step().unwrap().first().is_some() {
+            assert!(slept, "it never slept");
+            return Some(world.time());
+        }
+        slept |= world.physics.bodies[block].is_sleeping();
+    }
+    assert!(slept, "it never slept");
+    None
+}
+
+#[test]
+fn a_sleeping_body_is_woken_when_its_load_has_lasted_too_long() {
+    let broke = sleeper_breaks_at(true).expect("it breaks");
+    println!("broke after {broke} s");
+    // The margin of 1.02 is used up whenever the time has grown by 1.37 times.
+    assert!((4.0..8.0).contains(&broke), "{broke} s");
+    assert_eq!(sleeper_breaks_at(false), None);
+}
