@@ -25,6 +25,12 @@ use crate::stress::MARGIN;
 /// crack a fifth and a third of its depth) the front then gets 0.3 and 0.4 of the energy that the modes lose; with half a cell 0.13 and 0.15.
 const RESOLVED: f64 = 2.0;
 
+/// A crack has a section from this area on, in squares of the body's thickness where it starts.
+pub(crate) const LARGE: f64 = 0.1;
+
+/// Largest factor of an edge crack in tension and bending, F_t + 1.5 F_b, that may be met before cracks relax the section: that at 0.8 of the height.
+const SECTION: f64 = 20.0;
+
 /// Data of an existing crack for the growth of its front.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tip {
@@ -32,6 +38,8 @@ pub(crate) struct Tip {
     area: f64,
     /// Length of the front, m; 0 without a front.
     front: f64,
+    /// Factor by which the section that the crack lies in may raise the stress at the front.
+    section: f64,
     /// Resolution H, m; infinite if the modes do not include the crack.
     resolution: f64,
 }
@@ -41,8 +49,14 @@ impl Tip {
     pub(crate) const NONE: Self = Self {
         area: 0.0,
         front: 0.0,
+        section: 1.0,
         resolution: f64::INFINITY,
     };
+
+    /// Area, m².
+    pub(crate) fn area(&self) -> f64 {
+        self.area
+    }
 
     /// Returns the depth of the layer whose strain energy, from the tension across the crack, drives its front, m, after the crack has grown by
     /// this area, m².
@@ -68,7 +82,7 @@ pub struct CrackFront {
 }
 
 /// The old cracks of a body, in the order of its state.
-pub(crate) fn tips(asset: &Asset, state: &BodyState) -> Vec<Tip> {
+pub(crate) fn tips(asset: &Asset, thickness: &[f32], state: &BodyState) -> Vec<Tip> {
     if state.cracks.is_empty() {
         return Vec::new();
     }
@@ -83,6 +97,10 @@ pub(crate) fn tips(asset: &Asset, state: &BodyState) -> Vec<Tip> {
             let x = asset.fracture.corners(cut.tet as usize);
             tip.area += f64::from(crossing_area(&x, &cut.values));
             tip.front += uncut.ahead(cut).map(|(_, length)| length).sum::<f64>();
+        }
+        let room = f64::from(thickness[crack.start as usize]);
+        if tip.area > LARGE * room * room {
+            tip.section = SECTION;
         }
         tip
     };
@@ -209,7 +227,8 @@ pub(crate) fn front_limit(material: &Material, least: f64, tips: &[Tip]) -> f32 
     let share = 3.0 + 6.0 * material.poisson_ratio.abs();
     let energy_density = least / material.energy_depth;
     let layer = (2.0 * material.youngs_modulus * energy_density / share).sqrt();
-    let depths = tips.iter().map(|tip| tip.depth(0.0));
-    let tips = depths.map(|depth| tip_limit(material, least, depth));
+    let tips = tips
+        .iter()
+        .map(|tip| tip_limit(material, least, tip.depth(0.0)) / tip.section);
     tips.fold(layer, f64::min) as f32 * (1.0 - MARGIN)
 }

@@ -221,7 +221,7 @@ impl Body {
             None => Arc::clone(&self.prepared),
         };
         let resistance = self.resistance.of_part(&weak_tets);
-        let tips = tips(&asset, &state);
+        let tips = tips(&asset, &prepared.thickness, &state);
         Self {
             clusters: WeakClusters::default(),
             rows: Arc::default(),
@@ -303,7 +303,7 @@ impl Body {
     /// A state that does not belong to a body of this asset.
     pub fn set_state(&mut self, state: BodyState) -> Result<(), InputError> {
         state.check(&self.asset)?;
-        self.tips = tips(&self.asset, &state);
+        self.tips = tips(&self.asset, &self.prepared.thickness, &state);
         self.state = state;
         Ok(())
     }

@@ -67,7 +67,7 @@ impl CrackSystem<'_> {
 
     /// Returns true if the stress still does not pay for a front that was refused, whichever way the crack turns: it need not be steered then.
     /// The area is that of the refusal.
-    pub(super) fn stays_refused(&self, front: &Front, felt: &Felt) -> bool {
+    pub(super) fn stays_refused(&self, front: &Front, felt: &Felt, at: Vec3) -> bool {
         if front.refused <= 0.0 || !self.config.griffith_fronts {
             return false;
         }
@@ -76,12 +76,22 @@ impl CrackSystem<'_> {
         let depth = depth.unwrap_or_else(|| self.depth(crack, front.tet, felt));
         let most = f64::from(felt.largest_tension());
         let gain = depth * 0.5 * most * most / self.asset.material.contact_modulus();
+        let gain =
+            gain.max(self.section_feed(front, at, crack.elements[front.from as usize].direction));
         let cost = self.cost(front.tet, front.refused);
         crack.spent + cost >= crack.available + f64::from(front.refused) * gain
     }
 
-    /// Energy that an area, m², of a front sets free, J `[G12 Eq. 12]`. `normal`: unit normal of the crack there.
-    pub(super) fn gain(&self, front: &Front, felt: &Felt, normal: Vec3, area: f32) -> f64 {
+    /// Energy that an area, m², of a front sets free, J `[G12 Eq. 12]`. `normal`: unit normal of the crack there, at
+    /// this place, m.
+    pub(super) fn gain(
+        &self,
+        front: &Front,
+        felt: &Felt,
+        normal: Vec3,
+        at: Vec3,
+        area: f32,
+    ) -> f64 {
         let material = &self.asset.material;
         if !self.config.griffith_fronts {
             let density = f64::from(felt.state.energy_density);
@@ -96,7 +106,7 @@ impl CrackSystem<'_> {
             }
             None => self.depth(crack, front.tet, felt) * felt.energy_across(normal, modulus),
         };
-        f64::from(area) * per_area
+        f64::from(area) * per_area.max(self.section_feed(front, at, normal))
     }
 
     /// Keeps the length of the live fronts when a crack cuts a tetrahedron: its own front moves on, and that of a crack which it meets ends.

@@ -262,6 +262,11 @@ impl<'a> StressField<'a> {
         self.elasticity.set_energy(lanes);
     }
 
+    /// Displacement of an analysis node at the step, m.
+    pub(super) fn displacement_of(&mut self, node: u32) -> Vec3 {
+        (self.moment).displacement(self.asset, self.motion, node as usize, self.step)
+    }
+
     fn gradient(&mut self, point: &EmbeddedPoint) -> glam::Mat3 {
         (self.moment).gradient(self.asset, self.motion, point, self.step)
     }

@@ -97,7 +97,8 @@ fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
         return;
     }
     let felt = field.at(n, place);
-    if system.stays_refused(&front, &felt) {
+    system.keep_section(front.crack, field);
+    if system.stays_refused(&front, &felt, place) {
         return system.stalled.push(front);
     }
     let Some((direction, opens)) = steers(system, &felt, &front, &mut crossing) else {
@@ -114,7 +115,7 @@ fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
         },
     };
     let area = crossing_area(&crossing.x, &cut.values);
-    match pays(system, &felt, &front, &cut, area) {
+    match pays(system, &felt, &front, &cut, place, area) {
         Payment::Refused => {}
         Payment::Later { lacks } => system.stalled.push(Front {
             lacks,
@@ -248,10 +249,17 @@ enum Payment {
 }
 
 /// The energy test of a front `[G12 Algorithm 2]`: `E_f + A_n G_c < E_s + A_n γ η_n`.
-fn pays(system: &CrackSystem, felt: &Felt, front: &Front, cut: &ElementCut, area: f32) -> Payment {
+fn pays(
+    system: &CrackSystem,
+    felt: &Felt,
+    front: &Front,
+    cut: &ElementCut,
+    at: Vec3,
+    area: f32,
+) -> Payment {
     let crack = &system.cracks[front.crack as usize];
     let cost = system.cost(front.tet, area);
-    let gain = system.gain(front, felt, cut.direction, area);
+    let gain = system.gain(front, felt, cut.direction, at, area);
     if system.ledger.never_has(cost) {
         Payment::Refused
     } else if !system.ledger.has(cost) {

@@ -38,6 +38,10 @@ pub(crate) struct Crack {
     pub(crate) junctions: Vec<Junction>,
     /// Places where it forked, m, and the times, s.
     pub(crate) forks: Vec<(Vec3, f64)>,
+    /// The section of the body in which it lies, once it is large.
+    pub(super) section: Option<u32>,
+    /// Area up to which no section is looked for, m².
+    pub(super) unsought: f64,
     /// Tip that feeds its front, if it was there before this impact.
     pub(crate) tip: Option<Tip>,
     /// Number of its tetrahedra, from the first, that were cut before this impact.
@@ -61,9 +65,16 @@ impl Crack {
             sites: Sites::default(),
             junctions: Vec::new(),
             forks: Vec::new(),
+            section: None,
+            unsought: 0.0,
             tip: None,
             restored: 0,
         }
+    }
+
+    /// Its cuts that are not settled.
+    pub(super) fn unsettled(&self) -> &[ElementCut] {
+        &self.elements[self.settled.min(self.elements.len())..]
     }
 
     /// The crack as a body remembers it.

@@ -10,6 +10,7 @@ use super::ledger::{Ledger, Unpaid};
 use super::node_values::NodeValues;
 use super::release::Releases;
 use super::rest::Rest;
+use super::section::Section;
 use super::single::{Crack, ElementCut, Front, Junction};
 use super::sites::Site;
 use super::surface::CrackFrame;
@@ -17,7 +18,7 @@ use crate::asset::Asset;
 use crate::body::Body;
 use crate::config::{CrackPath, CrackTiming, FractureConfig};
 use crate::fields::Resistance;
-use crate::state::OldCrack;
+use crate::state::{OldCrack, crossing_middle};
 use crate::tips::{Tip, front_limit, is_inside};
 
 /// Mark of a tetrahedron that no crack has fractured.
@@ -37,6 +38,8 @@ pub(crate) struct CrackSystem<'a> {
     pub(crate) resistance: &'a Resistance,
     pub(crate) seed: u64,
     pub(crate) cracks: Vec<Crack>,
+    /// Sections in which large cracks lie.
+    pub(super) sections: Vec<Section>,
     /// s of steered cracks at the nodes that they have met.
     pub(crate) values: NodeValues,
     /// Crack that fractured each tetrahedron, or [`UNCUT`].
@@ -95,6 +98,7 @@ impl<'a> CrackSystem<'a> {
             seed: body.seed(),
             ledger: Ledger::new(config.energy_ledger, budget),
             cracks: Vec::new(),
+            sections: Vec::new(),
             values: NodeValues::new(asset.fracture.positions.len()),
             fractured_by: match &asset.portion {
                 None => vec![UNCUT; asset.fracture.tets.len()],
@@ -343,6 +347,10 @@ impl<'a> CrackSystem<'a> {
         let c = &mut self.cracks[crack as usize];
         c.area += f64::from(area);
         let centre = self.centroids[tet];
+        if let Some(k) = c.section {
+            let middle = crossing_middle(&self.asset.fracture.corners(tet), &cut.values);
+            self.sections[k as usize].cut(middle, cut.direction, area);
+        }
         self.extents.grow(crack as usize, centre, cut.time);
         // The surface of a planar crack is the same everywhere.
         if self.config.path != CrackPath::Planar {

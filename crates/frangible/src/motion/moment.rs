@@ -22,10 +22,7 @@ impl Moment {
         point: &EmbeddedPoint,
         step: usize,
     ) -> Mat3 {
-        if self.nodes.is_empty() {
-            self.nodes
-                .resize(asset.analysis.nodes.len(), (Vec3::ZERO, 0));
-        }
+        self.begin(asset);
         let element = point.element as usize;
         let gradients = point.shape_gradients(&asset.analysis.barycentric_gradients[element]);
         let nodes = &asset.analysis.elements[element];
@@ -46,6 +43,26 @@ impl Moment {
             sum.z_axis += u * g.z;
         }
         sum
+    }
+
+    /// Displacement of an analysis node at a time step, m.
+    pub(crate) fn displacement(
+        &mut self,
+        asset: &Asset,
+        motion: &Motion,
+        node: usize,
+        step: usize,
+    ) -> Vec3 {
+        self.begin(asset);
+        self.compute(asset, motion, node, step);
+        self.nodes[node].0
+    }
+
+    fn begin(&mut self, asset: &Asset) {
+        if self.nodes.is_empty() {
+            self.nodes
+                .resize(asset.analysis.nodes.len(), (Vec3::ZERO, 0));
+        }
     }
 
     #[inline(always)]

@@ -1,0 +1,408 @@
+//! The section of a solid in which large cracks lie, and the energy that the whole body sets free when they grow across it (beyond the paper).
+//!
+//! The stress of the unbroken body tells only what acts ahead of a small crack. A crack that takes much of a section loads the rest of it: a bent
+//! bar that is cut to its middle has no tension there, and goes on cracking. A section is flat, and divided into columns about as wide as they
+//! are high. Force N and moment M of a column act on its crack and its ligament together, and the crack adds the compliance C of an edge crack in a
+//! strip (H. Tada, P. Paris, G. Irwin, *The Stress Analysis of Cracks Handbook*; J. Rice, N. Levy, J. Appl. Mech. 39 (1972) 185). With
+//! f = (N, M), the energy release rate is `½ fᵀ (∂C/∂A) f`, which is K²/E'. The cracks relax f: `f = (1 + G Λ⁻¹ Gᵀ C)⁻¹ f₀`, where the rows of G
+//! are the N and M of the modes, and f₀ those of the motion without the cracks.
+
+use glam::{Vec2, Vec3};
+
+use super::strip;
+
+/// Cosine of the largest angle between a section and a crack that runs along it.
+pub(super) const ALONG: f32 = 0.7;
+
+/// Least distance of the cracked part's centroid from the middle of a column, over its height: a crack nearer to the middle is no edge crack.
+const ASIDE: f64 = 0.05;
+
+/// A square counts as cracked when less than this share of it is left.
+const LEFT: f32 = 0.1;
+
+/// Squares into which the section is divided along the longer side, at most.
+const MOST_SQUARES: usize = 256;
+
+/// Columns of a section, at most.
+const MOST_COLUMNS: usize = 12;
+
+/// A section, and the cracks in it.
+pub(super) struct Section {
+    pub(super) plane: Plane,
+    squares: Squares,
+    columns: Vec<Column>,
+    /// Analysis nodes whose displacements give the resultants.
+    pub(super) nodes: Vec<u32>,
+    /// Their factors in N, N/m, and M, N, of each column: `[node][column]`.
+    pub(super) factors: Vec<[Vec3; 2]>,
+    /// G Λ⁻¹ Gᵀ, a row for N and one for M of each column.
+    pub(super) stiffness: Vec<f64>,
+    /// N and M of the columns in the motion, N and N m, and the time step.
+    pub(super) resultants: Vec<f64>,
+    pub(super) step: usize,
+    /// Cracked area when the section was found, m².
+    pub(super) found: f64,
+    /// False where another section releases this one.
+    pub(super) is_fed: bool,
+    /// True if the rates are those of the present cracks and step.
+    known: bool,
+}
+
+/// Plane of a section, with axes along its columns' widths and heights.
+#[derive(Clone, Copy)]
+pub(super) struct Plane {
+    pub(super) origin: Vec3,
+    pub(super) normal: Vec3,
+    pub(super) axes: [Vec3; 2],
+    /// Largest distance from the plane at which a crack runs along it, m.
+    pub(super) near: f32,
+}
+
+impl Plane {
+    pub(super) fn place(&self, at: Vec3) -> Vec2 {
+        let off = at - self.origin;
+        Vec2::from_array(self.axes.map(|axis| axis.dot(off)))
+    }
+
+    /// Returns true if a cut at a place, m, with this normal runs along the plane.
+    pub(super) fn has(&self, at: Vec3, normal: Vec3) -> bool {
+        (at - self.origin).dot(self.normal).abs() < self.near
+            && normal.dot(self.normal).abs() > ALONG
+    }
+}
+
+/// Part of a section across its width, about as wide as it is high.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Column {
+    /// Area, m², and the part of it that is cracked.
+    pub(super) area: f64,
+    cracked: f64,
+    /// ∫ y dA of all of it and of the cracked part, and ∫ y² dA, m³ and m⁴, with y along the height.
+    first: f64,
+    first_cracked: f64,
+    second: f64,
+    /// Energy release rate, J/m².
+    rate: f64,
+}
+
+impl Column {
+    /// Middle, m.
+    pub(super) fn middle(&self) -> f64 {
+        self.first / self.area
+    }
+
+    /// Height of the strip with its area and moment of inertia, t H³ / 12, m.
+    pub(super) fn height(&self) -> f64 {
+        let inertia = self.second - self.first * self.first / self.area;
+        libm::sqrt(12.0 * inertia.max(0.0) / self.area)
+    }
+
+    /// Cracked share of the height, and the side of the crack; no share where it lies in the middle.
+    fn crack(&self) -> (f64, f64) {
+        if self.cracked <= 0.0 {
+            return (0.0, 1.0);
+        }
+        let share = (self.cracked / self.area).min(strip::MOST);
+        let off = self.first_cracked / self.cracked - self.middle();
+        let is_edge = off.abs() > ASIDE * self.height() || share > 0.9;
+        (if is_edge { share } else { 0.0 }, off.signum())
+    }
+}
+
+/// Area of a section by squares.
+struct Squares {
+    low: Vec2,
+    side: f32,
+    count: [usize; 2],
+    /// Area, and the part of it that is cracked, m², and the column.
+    list: Vec<(f32, f32, u32)>,
+    area: f64,
+    cracked: f64,
+}
+
+impl Squares {
+    /// `polygons`: places and areas.
+    fn new(polygons: &[(Vec2, f32)], side: f32) -> Option<Self> {
+        let places = || polygons.iter().map(|p| p.0);
+        let low = places().reduce(Vec2::min)?;
+        let extent = places().reduce(Vec2::max)? - low;
+        let side = side.max(extent.max_element() / MOST_SQUARES as f32);
+        let count = (extent / side).to_array().map(|n| n as usize + 1);
+        let mut squares = Self {
+            low,
+            side,
+            count,
+            list: vec![(0.0, 0.0, 0); count[0] * count[1]],
+            area: 0.0,
+            cracked: 0.0,
+        };
+        for &(place, area) in polygons {
+            if let Some(k) = squares.of(place) {
+                squares.list[k].0 += area;
+                squares.area += f64::from(area);
+            }
+        }
+        Some(squares)
+    }
+
+    fn of(&self, place: Vec2) -> Option<usize> {
+        let [x, y] = ((place - self.low) / self.side).to_array();
+        let within = x >= 0.0 && y >= 0.0 && x < self.count[0] as f32 && y < self.count[1] as f32;
+        within.then(|| y as usize * self.count[0] + x as usize)
+    }
+
+    /// Middle of a square along the height, m.
+    fn y(&self, k: usize) -> f64 {
+        f64::from(self.low.y + self.side * ((k / self.count[0]) as f32 + 0.5))
+    }
+}
+
+/// Standard deviation of the area along an axis, m.
+fn spread(polygons: &[(Vec2, f32)], axis: usize) -> f64 {
+    let sum = |power: i32| -> f64 {
+        let moments = polygons.iter();
+        let moments = moments.map(|&(at, a)| f64::from(a) * f64::from(at[axis]).powi(power));
+        moments.sum()
+    };
+    let area = sum(0);
+    let mean = sum(1) / area;
+    libm::sqrt((sum(2) / area - mean * mean).max(0.0))
+}
+
+impl Section {
+    /// A section with the areas, m², that a plane cuts of tetrahedra at these places. `side`: length that is told apart, m.
+    pub(super) fn new(plane: Plane, polygons: &[(Vec2, f32)], side: f32) -> Option<Self> {
+        let mut squares = Squares::new(polygons, side)?;
+        let [wide, high] = [0, 1].map(|axis| spread(polygons, axis));
+        let count = ((wide / high.max(f64::MIN_POSITIVE)).round() as usize).clamp(1, MOST_COLUMNS);
+        let mut columns = vec![Column::default(); count];
+        for k in 0..squares.list.len() {
+            let column = (k % squares.count[0]) * count / squares.count[0];
+            squares.list[k].2 = column as u32;
+            let (area, y) = (f64::from(squares.list[k].0), squares.y(k));
+            let column = &mut columns[column];
+            column.area += area;
+            column.first += area * y;
+            column.second += area * (y * y + f64::from(squares.side * squares.side) / 12.0);
+        }
+        Some(Self {
+            plane,
+            squares,
+            resultants: vec![0.0; 2 * columns.len()],
+            columns,
+            nodes: Vec::new(),
+            factors: Vec::new(),
+            stiffness: Vec::new(),
+            step: usize::MAX,
+            found: 0.0,
+            is_fed: true,
+            known: false,
+        })
+    }
+
+    pub(super) fn columns(&self) -> &[Column] {
+        &self.columns
+    }
+
+    /// The column at a place in the section, if it is in one.
+    pub(super) fn column(&self, place: Vec2) -> Option<usize> {
+        let k = self.squares.of(place)?;
+        (self.squares.list[k].0 > 0.0).then_some(self.squares.list[k].2 as usize)
+    }
+
+    /// Cracked area, m².
+    pub(super) fn cracked(&self) -> f64 {
+        self.squares.cracked
+    }
+
+    /// Takes in a cut of a crack, of this area, m². What several cuts take of a square counts once.
+    pub(super) fn cut(&mut self, at: Vec3, normal: Vec3, area: f32) {
+        if !self.plane.has(at, normal) {
+            return;
+        }
+        let Some(k) = self.squares.of(self.plane.place(at)) else {
+            return;
+        };
+        let y = self.squares.y(k);
+        let (all, cracked, column) = &mut self.squares.list[k];
+        let own = (area * normal.dot(self.plane.normal).abs()).min(*all - *cracked);
+        *cracked += own;
+        let own = f64::from(own);
+        let column = &mut self.columns[*column as usize];
+        column.cracked += own;
+        column.first_cracked += own * y;
+        self.squares.cracked += own;
+        self.known = false;
+    }
+
+    /// Sets the resultants of a time step.
+    pub(super) fn set_resultants(&mut self, resultants: Vec<f64>, step: usize) {
+        (self.resultants, self.step, self.known) = (resultants, step, false);
+    }
+
+    /// Energy release rate of a crack that enters the section at a place that is not cracked yet, J/m².
+    pub(super) fn release_rate(&self, at: Vec3, normal: Vec3) -> f64 {
+        if !self.is_fed || !self.plane.has(at, normal) {
+            return 0.0;
+        }
+        let square = self.squares.of(self.plane.place(at));
+        square.map_or(0.0, |k| {
+            let (all, cracked, column) = self.squares.list[k];
+            let is_open = all - cracked > LEFT * all;
+            if is_open {
+                self.columns[column as usize].rate
+            } else {
+                0.0
+            }
+        })
+    }
+
+    /// Finds the energy release rates of the columns. `modulus`: E/(1−ν²), Pa.
+    pub(super) fn update(&mut self, modulus: f64) {
+        if std::mem::replace(&mut self.known, true) {
+            return;
+        }
+        let n = 2 * self.columns.len();
+        // M is positive where it opens a crack at the lower side; the other side's has the opposite sign.
+        let cracks: Vec<(f64, f64)> = self.columns.iter().map(Column::crack).collect();
+        let compliances: Vec<[f64; 3]> = (self.columns.iter().zip(&cracks))
+            .map(|(column, &(share, side))| {
+                let height = column.height();
+                let [tt, tb, bb] = strip::integrals(share);
+                let scale = std::f64::consts::TAU * height / (modulus * column.area);
+                let lever = -side * 6.0 / height;
+                [scale * tt, scale * lever * tb, scale * lever * lever * bb]
+            })
+            .collect();
+        let mut matrix = vec![0.0; n * n];
+        for i in 0..n {
+            for (c, [tt, tb, bb]) in compliances.iter().enumerate() {
+                let (x, y) = (
+                    self.stiffness[i * n + 2 * c],
+                    self.stiffness[i * n + 2 * c + 1],
+                );
+                matrix[i * n + 2 * c] = x * tt + y * tb;
+                matrix[i * n + 2 * c + 1] = x * tb + y * bb;
+            }
+            matrix[i * n + i] += 1.0;
+        }
+        let mut relaxed = self.resultants.clone();
+        solve(&mut matrix, &mut relaxed);
+        for (c, (column, &(share, side))) in self.columns.iter_mut().zip(&cracks).enumerate() {
+            let (force, moment) = (relaxed[2 * c], relaxed[2 * c + 1]);
+            let lever = -side * 6.0 / column.height();
+            let sum = strip::tension(share) * force + strip::bending(share) * lever * moment;
+            let stress = sum.max(0.0) / column.area;
+            column.rate =
+                std::f64::consts::PI * share * column.height() * stress * stress / modulus;
+        }
+    }
+}
+
+/// Solves a small dense system by elimination, row by row; the solution replaces the right-hand side.
+fn solve(matrix: &mut [f64], right: &mut [f64]) {
+    let n = right.len();
+    for k in 0..n {
+        let pivot = (k..n).max_by(|&a, &b| {
+            let size = |i: usize| matrix[i * n + k].abs();
+            size(a).total_cmp(&size(b))
+        });
+        let pivot = pivot.unwrap_or(k);
+        if pivot != k {
+            for j in 0..n {
+                matrix.swap(k * n + j, pivot * n + j);
+            }
+            right.swap(k, pivot);
+        }
+        for i in k + 1..n {
+            let factor = matrix[i * n + k] / matrix[k * n + k];
+            if factor != 0.0 {
+                for j in k..n {
+                    matrix[i * n + j] -= factor * matrix[k * n + j];
+                }
+                right[i] -= factor * right[k];
+            }
+        }
+    }
+    for k in (0..n).rev() {
+        let sum: f64 = (k + 1..n).map(|j| matrix[k * n + j] * right[j]).sum();
+        right[k] = (right[k] - sum) / matrix[k * n + k];
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const HEIGHT: f32 = 0.1;
+    const WIDTH: f32 = 0.3;
+    const MODULUS: f64 = 7e10;
+
+    /// A rectangle of 3 columns, cut from below to a share of its height, under this tension and bending, Pa.
+    fn section(share: f32, tension: f64, bending: f64) -> Section {
+        let plane = Plane {
+            origin: Vec3::ZERO,
+            normal: Vec3::Z,
+            axes: [Vec3::X, Vec3::Y],
+            near: 0.01,
+        };
+        let side = 0.002;
+        let [rows, lines] = [HEIGHT, WIDTH].map(|length| (length / side).round() as usize);
+        let places = (0..rows * lines).map(|k| {
+            let [x, y] = [k % lines, k / lines].map(|n| (n as f32 + 0.5) * side);
+            Vec2::new(x, y)
+        });
+        let polygons: Vec<(Vec2, f32)> = places.map(|at| (at, side * side)).collect();
+        let mut section = Section::new(plane, &polygons, side).expect("a section");
+        for &(at, area) in polygons.iter().filter(|p| p.0.y < share * HEIGHT) {
+            section.cut(at.extend(0.0), Vec3::Z, area);
+        }
+        let (area, height) = (section.columns[0].area, section.columns[0].height());
+        let resultants = [tension * area, bending * area * height / 6.0];
+        section.stiffness = vec![0.0; 36];
+        section.set_resultants(resultants.repeat(3), 0);
+        section.update(MODULUS);
+        section
+    }
+
+    fn rate(share: f32, tension: f64, bending: f64) -> f64 {
+        let ahead = Vec3::new(0.5 * WIDTH, HEIGHT * (share + 0.03), 0.0);
+        section(share, tension, bending).release_rate(ahead, Vec3::Z)
+    }
+
+    /// K²/E' of an edge crack, with its stress intensities in tension and bending added up.
+    #[test]
+    fn an_edge_crack_is_fed_by_its_stress_intensity() {
+        for (share, tension, bending) in [(0.2, 1e6, 0.0), (0.5, 0.0, 1e6), (0.7, 1e6, 2e6)] {
+            let alpha = f64::from(share);
+            let stress = tension * strip::tension(alpha) + bending * strip::bending(alpha);
+            let expected = std::f64::consts::PI * alpha * f64::from(HEIGHT) * stress * stress;
+            let ratio = rate(share, tension, bending) * MODULUS / expected;
+            assert!((ratio - 1.0).abs() < 0.05, "{share}: {ratio}");
+        }
+    }
+
+    #[test]
+    fn pressure_and_cut_places_are_not_fed() {
+        assert_eq!(rate(0.3, 0.0, -1e6), 0.0);
+        let cut = section(0.3, 0.0, 1e6);
+        let behind = Vec3::new(0.5 * WIDTH, 0.1 * HEIGHT, 0.0);
+        assert_eq!(cut.release_rate(behind, Vec3::Z), 0.0);
+        let aside = Vec3::new(0.5 * WIDTH, 0.5 * HEIGHT, 0.02);
+        assert_eq!(cut.release_rate(aside, Vec3::Z), 0.0);
+    }
+
+    /// A section that modes hold stiffly loses its force to the crack.
+    #[test]
+    fn stiff_modes_let_the_crack_relax_the_section() {
+        let mut section = section(0.5, 0.0, 1e6);
+        let ahead = Vec3::new(0.5 * WIDTH, 0.53 * HEIGHT, 0.0);
+        let free = section.release_rate(ahead, Vec3::Z);
+        for k in 0..6 {
+            section.stiffness[7 * k] = 1e9;
+        }
+        section.known = false;
+        section.update(MODULUS);
+        assert!(section.release_rate(ahead, Vec3::Z) < 0.2 * free);
+    }
+}

@@ -1,0 +1,365 @@
+//! Finds the sections in which large cracks lie.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use glam::{Mat3, Vec2, Vec3};
+
+use super::field::StressField;
+use super::section::{ALONG, Column, Plane, Section};
+use super::single::Front;
+use super::system::{CrackSystem, ELSEWHERE, UNCUT};
+use crate::config::CrackTiming;
+use crate::mesh::{FACES, NO_NEIGHBOUR};
+use crate::state::{crossing_area, crossing_middle};
+use crate::tips::LARGE;
+
+/// A section is looked for again when its cracks have grown by this factor.
+const GREW: f64 = 1.3;
+
+/// Distance from a section, in mean edges, up to which a crack runs along it.
+const NEAR: f32 = 2.0;
+
+/// The same in heights of the section, if that is farther.
+const NEAR_HEIGHT: f32 = 0.25;
+
+/// A section is compact if its second moments of area differ by less than this factor.
+const COMPACT: f32 = 2.25;
+
+impl CrackSystem<'_> {
+    /// Energy per area that the section of a front's crack gives it where it cuts its tetrahedron, J/m²; zero where the crack has none.
+    pub(super) fn section_feed(&self, front: &Front, at: Vec3, normal: Vec3) -> f64 {
+        let section = self.cracks[front.crack as usize].section;
+        section.map_or(0.0, |k| self.sections[k as usize].release_rate(at, normal))
+    }
+
+    /// Finds the section of a crack that has grown, and the energy release rates there at the present step.
+    pub(super) fn keep_section(&mut self, crack: u32, field: &mut StressField) {
+        if !self.config.griffith_fronts {
+            return;
+        }
+        let id = crack as usize;
+        match self.cracks[id].section {
+            Some(k) => self.find_anew(k, field),
+            None => self.find_first(id, field),
+        }
+        let Some(k) = self.cracks[id].section else {
+            return;
+        };
+        let section = &mut self.sections[k as usize];
+        if section.step != field.step {
+            let columns = section.columns().len();
+            let mut sums = vec![0.0_f64; 2 * columns];
+            for (&node, factors) in section.nodes.iter().zip(section.factors.chunks(columns)) {
+                let u = field.displacement_of(node);
+                for (sum, [force, moment]) in sums.chunks_mut(2).zip(factors) {
+                    sum[0] += f64::from(force.dot(u));
+                    sum[1] += f64::from(moment.dot(u));
+                }
+            }
+            section.set_resultants(sums, field.step);
+        }
+        section.update(self.asset.material.contact_modulus());
+    }
+
+    /// Finds a section again, if its cracks have grown.
+    fn find_anew(&mut self, k: u32, field: &StressField) {
+        let section = &self.sections[k as usize];
+        if section.cracked() <= GREW * section.found {
+            return;
+        }
+        let members: Vec<usize> = (0..self.cracks.len())
+            .filter(|&id| self.cracks[id].section == Some(k))
+            .collect();
+        match self.section(&members, Some(section.plane), field) {
+            Some(new) => self.sections[k as usize] = new,
+            None => self.sections[k as usize].found = section.cracked(),
+        }
+        self.share_sections();
+    }
+
+    /// Gives a crack that has become large its section: one that there is already, or its own.
+    fn find_first(&mut self, id: usize, field: &StressField) {
+        let (own, mesh) = (&self.cracks[id], &self.asset.fracture);
+        let area = own.area + own.tip.map_or(0.0, |tip| tip.area());
+        let room = f64::from(self.thickness[own.start as usize]);
+        if area <= own.unsought.max(LARGE * room * room) {
+            return;
+        }
+        self.cracks[id].unsought = GREW * area;
+        if field.wall(self.cracks[id].start as usize).is_some() {
+            return;
+        }
+        let Some((origin, normal)) = self.mean_plane(&[id], None) else {
+            return;
+        };
+        let known = self.sections.iter().position(|section| {
+            section.plane.has(origin, normal)
+                && section.column(section.plane.place(origin)).is_some()
+        });
+        let k = match known {
+            Some(k) => {
+                for cut in self.cracks[id].unsettled() {
+                    let x = mesh.corners(cut.tet as usize);
+                    let middle = crossing_middle(&x, &cut.values);
+                    let area = crossing_area(&x, &cut.values);
+                    self.sections[k].cut(middle, cut.direction, area);
+                }
+                k
+            }
+            None => {
+                let Some(section) = self.section(&[id], None, field) else {
+                    return;
+                };
+                self.sections.push(section);
+                self.sections.len() - 1
+            }
+        };
+        self.cracks[id].section = Some(k as u32);
+        self.share_sections();
+    }
+
+    /// Of sections that lie side by side, only the one that is cracked most is fed: its cracks release the others.
+    fn share_sections(&mut self) {
+        let all: Vec<(Plane, f32, f64)> = self
+            .sections
+            .iter()
+            .map(|s| {
+                let height = s.columns().iter().map(|c| c.height()).fold(0.0, f64::max);
+                (s.plane, height as f32, s.cracked())
+            })
+            .collect();
+        for (k, section) in self.sections.iter_mut().enumerate() {
+            let (plane, height, cracked) = all[k];
+            let released = all
+                .iter()
+                .enumerate()
+                .any(|(j, &(other, its_height, its))| {
+                    let off = plane.origin - other.origin;
+                    let reach = 0.5 * height.max(its_height);
+                    j != k
+                        && off.dot(other.normal).abs() < reach
+                        && off.length() < 2.0 * reach
+                        && plane.normal.dot(other.normal).abs() > ALONG
+                        && (its, j) > (cracked, k)
+                });
+            section.is_fed = !released;
+        }
+    }
+
+    /// Cuts of cracks, those along a plane if one is given: middles, m, normals and areas, m².
+    fn cuts_along(
+        &self,
+        cracks: &[usize],
+        along: Option<Plane>,
+    ) -> impl Iterator<Item = (Vec3, Vec3, f32)> {
+        let mesh = &self.asset.fracture;
+        let cuts = cracks.iter().flat_map(|&id| self.cracks[id].unsettled());
+        cuts.filter_map(move |cut| {
+            let x = mesh.corners(cut.tet as usize);
+            let middle = crossing_middle(&x, &cut.values);
+            let runs = along.is_none_or(|plane| plane.has(middle, cut.direction));
+            runs.then(|| (middle, cut.direction, crossing_area(&x, &cut.values)))
+        })
+    }
+
+    /// Mean plane of cracks, or of what of them runs along a plane: a point and the normal.
+    fn mean_plane(&self, cracks: &[usize], along: Option<Plane>) -> Option<(Vec3, Vec3)> {
+        let (mut normal, mut origin, mut area) = (Vec3::ZERO, Vec3::ZERO, 0.0);
+        let mut first = along.map(|plane| plane.normal);
+        for (middle, direction, own) in self.cuts_along(cracks, along) {
+            let first = *first.get_or_insert(direction);
+            normal += direction * own * direction.dot(first).signum();
+            origin += middle * own;
+            area += own;
+        }
+        Some((origin / area, normal.try_normalize()?))
+    }
+
+    /// Finds the section of cracks, near the plane of the one that they had.
+    fn section(
+        &self,
+        cracks: &[usize],
+        before: Option<Plane>,
+        field: &StressField,
+    ) -> Option<Section> {
+        let (origin, normal) = self.mean_plane(cracks, before)?;
+        let polygons = self.passed(cracks, origin, normal);
+        let axis = normal.any_orthonormal_vector();
+        let rough = Plane {
+            origin,
+            normal,
+            axes: [axis, normal.cross(axis)],
+            near: NEAR * self.edge,
+        };
+        let plane = self.turned(rough, cracks, &polygons);
+        let flat: Vec<(Vec2, f32)> = (polygons.iter())
+            .map(|&(_, at, area)| (plane.place(at), area))
+            .collect();
+        let mut section = Section::new(plane, &flat, self.edge)?;
+        for (middle, direction, area) in self.cuts_along(cracks, None) {
+            section.cut(middle, direction, area);
+        }
+        section.found = section.cracked();
+        let mut columns = section.columns().iter();
+        if columns.any(|c| c.area <= 0.0 || c.height() <= 0.0) {
+            return None;
+        }
+        self.set_factors(&mut section, &polygons);
+        self.set_stiffness(&mut section, field.motion.modes);
+        Some(section)
+    }
+
+    /// The plane with its axes along the greatest and the least extent of the section. The height of a section that is about as wide as it is high runs
+    /// from the cracks to the ligament.
+    fn turned(&self, plane: Plane, cracks: &[usize], polygons: &[(u32, Vec3, f32)]) -> Plane {
+        let (mut area, mut mean, mut square) = (0.0_f32, Vec2::ZERO, [0.0_f32; 3]);
+        for &(_, at, own) in polygons {
+            area += own;
+            mean += own * plane.place(at);
+        }
+        mean /= area;
+        for &(_, at, own) in polygons {
+            let off = plane.place(at) - mean;
+            let products = [off.x * off.x, off.x * off.y, off.y * off.y];
+            for (sum, product) in square.iter_mut().zip(products) {
+                *sum += own * product;
+            }
+        }
+        let [xx, xy, yy] = square;
+        let (sin, cos) = libm::sincosf(0.5 * libm::atan2f(2.0 * xy, xx - yy));
+        let [a, b] = plane.axes;
+        let mut axes = [cos * a + sin * b, cos * b - sin * a];
+        let least = (yy * cos * cos - 2.0 * xy * sin * cos + xx * sin * sin).max(0.0);
+        if xx + yy - least < COMPACT * least {
+            let (mut cracked, mut sum) = (Vec2::ZERO, 0.0);
+            for (middle, _, own) in self.cuts_along(cracks, Some(plane)) {
+                cracked += own * plane.place(middle);
+                sum += own;
+            }
+            let [x, y] = (cracked / sum - mean).to_array();
+            let toward = (x * a + y * b).normalize_or(axes[1]);
+            axes = [plane.normal.cross(toward), toward];
+        }
+        let height = libm::sqrtf(12.0 * least / area);
+        Plane {
+            axes,
+            near: plane.near.max(NEAR_HEIGHT * height),
+            ..plane
+        }
+    }
+
+    /// Tetrahedra that a plane passes, from those of cracks on through neighbours, with the middle and the area of what it cuts of them. Cracks
+    /// across it end it.
+    fn passed(&self, cracks: &[usize], origin: Vec3, normal: Vec3) -> Vec<(u32, Vec3, f32)> {
+        let mesh = &self.asset.fracture;
+        let values = |tet: u32| {
+            let x = mesh.corners(tet as usize);
+            (x, x.map(|x| (x - origin).dot(normal)))
+        };
+        let crosses = |s: &[f32]| s.iter().any(|&s| s < 0.0) && s.iter().any(|&s| s >= 0.0);
+        let mut seen = BTreeSet::new();
+        let mut queue: Vec<u32> = Vec::new();
+        for cut in cracks.iter().flat_map(|&id| self.cracks[id].unsettled()) {
+            if crosses(&values(cut.tet).1) && seen.insert(cut.tet) {
+                queue.push(cut.tet);
+            }
+        }
+        let is_open = |tet: u32| match self.fractured_by[tet as usize] {
+            UNCUT => true,
+            ELSEWHERE => false,
+            by => {
+                let cut = &self.cracks[by as usize].elements[self.cut_at[tet as usize] as usize];
+                cut.direction.dot(normal).abs() > ALONG
+            }
+        };
+        let mut next = 0;
+        let mut polygons = Vec::new();
+        while let Some(&tet) = queue.get(next) {
+            next += 1;
+            let (x, s) = values(tet);
+            polygons.push((tet, crossing_middle(&x, &s), crossing_area(&x, &s)));
+            for (face, &n) in FACES.iter().zip(&mesh.neighbours[tet as usize]) {
+                if n != NO_NEIGHBOUR && crosses(&face.map(|i| s[i])) && is_open(n) && seen.insert(n)
+                {
+                    queue.push(n);
+                }
+            }
+        }
+        polygons
+    }
+
+    /// Sets the factors of the displacements of the analysis nodes in the resultants.
+    fn set_factors(&self, section: &mut Section, polygons: &[(u32, Vec3, f32)]) {
+        let material = &self.asset.material;
+        let (e, nu) = (material.youngs_modulus, material.poisson_ratio);
+        let lambda = (e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu))) as f32;
+        let twice_mu = (e / (1.0 + nu)) as f32;
+        let analysis = &self.asset.analysis;
+        let count = section.columns().len();
+        let normal = section.plane.normal;
+        // σ_nn = λ ∇·u + 2 μ n·(∇u) n
+        let stress = Mat3::from_diagonal(Vec3::splat(lambda))
+            + twice_mu * Mat3::from_cols(normal.x * normal, normal.y * normal, normal.z * normal);
+        let mut of_node = BTreeMap::<u32, Vec<[Vec3; 2]>>::new();
+        for &(tet, at, area) in polygons {
+            let place = section.plane.place(at);
+            let Some(column) = section.column(place) else {
+                continue;
+            };
+            let arm = place.y - section.columns()[column].middle() as f32;
+            let point = self.asset.embedded_tet(tet as usize);
+            let element = point.element as usize;
+            let barycentric = &analysis.barycentric_gradients[element];
+            let point = point.moved(barycentric, at - self.centroids[tet as usize]);
+            let gradients = point.shape_gradients(barycentric);
+            for (&node, g) in analysis.elements[element].iter().zip(gradients) {
+                let row = area * (stress * g);
+                let rows = of_node
+                    .entry(node)
+                    .or_insert_with(|| vec![[Vec3::ZERO; 2]; count]);
+                rows[column][0] += row;
+                rows[column][1] -= arm * row;
+            }
+        }
+        section.nodes = of_node.keys().copied().collect();
+        section.factors = of_node.into_values().flatten().collect();
+    }
+
+    /// Sets G Λ⁻¹ Gᵀ of the modes that are followed, as far as they are too slow to give way while a crack runs through the section.
+    fn set_stiffness(&self, section: &mut Section, modes: usize) {
+        let count = section.columns().len();
+        let n = 2 * count;
+        let mut rows = vec![0.0_f32; modes * n];
+        for (&node, factors) in section.nodes.iter().zip(section.factors.chunks(count)) {
+            let [x, y, z] = self.asset.modes.rows(node as usize);
+            for (i, row) in rows.chunks_mut(n).enumerate() {
+                let shape = Vec3::new(x[i], y[i], z[i]);
+                for (out, f) in row.iter_mut().zip(factors.as_flattened()) {
+                    *out += f.dot(shape);
+                }
+            }
+        }
+        let heights = section.columns().iter().map(Column::height);
+        let duration = heights.fold(0.0, f64::max) / self.crack_speed();
+        let mut matrix = vec![0.0; n * n];
+        for (row, &eigenvalue) in rows.chunks(n).zip(&self.asset.modes.eigenvalues) {
+            // A step of force that lasts for t moves a mode by 1 − cos ωt of its static response.
+            let held = 1.0 / (1.0 + 0.5 * eigenvalue * duration * duration);
+            for (i, &a) in row.iter().enumerate() {
+                for (j, &b) in row.iter().enumerate() {
+                    matrix[i * n + j] += f64::from(a) * f64::from(b) * held / eigenvalue;
+                }
+            }
+        }
+        section.stiffness = matrix;
+    }
+
+    /// Speed of the cracks, m/s.
+    fn crack_speed(&self) -> f64 {
+        let share = match self.config.timing {
+            CrackTiming::TimeResolved { speed } => speed,
+            CrackTiming::Instant => 1.0,
+        };
+        share * self.asset.material.rayleigh_speed()
+    }
+}
