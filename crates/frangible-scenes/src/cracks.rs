@@ -160,6 +160,12 @@ impl Part {
         if mesh.uvs.len() == mesh.positions.len() {
             mesh.uvs.extend([[0.0; 2]; 3]);
         }
+        for uvs in &mut mesh.more_uvs {
+            uvs.extend([[0.0; 2]; 3]);
+        }
+        if !mesh.colors.is_empty() {
+            mesh.colors.extend([[1.0; 4]; 3]);
+        }
         mesh.positions.extend(corners);
         mesh.normals.extend([normal; 3]);
         self.part.indices.extend([first, first + 1, first + 2]);
@@ -206,6 +212,8 @@ mod tests {
             crack_line: 3,
             clear: true,
             authored: Vec::new(),
+            srgb_colors: false,
+            names: [String::new(), String::new()],
         };
         add_cracks(&mut mesh, &[[a, b, c], [a, c, d]], &surfaces);
         assert_eq!(mesh.parts.len(), 2);

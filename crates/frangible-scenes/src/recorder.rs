@@ -10,7 +10,7 @@ use frangible_rapier::BreakEvent;
 use frangible_rapier::BreakableWorld;
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_recording::{
-    Floor, Moments, Pose, RecordedMesh, RecordedNode, Recording, SurfaceMaterial,
+    Floor, Image, Moments, Pose, RecordedMesh, RecordedNode, Recording, SurfaceMaterial,
 };
 use frangible_sound::{Sounding, recorded_blow};
 
@@ -97,6 +97,16 @@ impl Recorder {
         })
     }
 
+    /// Number of an image in the recording; equal ones are kept once.
+    pub(crate) fn image(&mut self, image: &Image) -> u32 {
+        let known = &mut self.recording.images;
+        let number = known.iter().position(|k| k == image).unwrap_or_else(|| {
+            known.push(image.clone());
+            known.len() - 1
+        });
+        number as u32
+    }
+
     /// A thing to follow from the next frame on.
     pub(crate) fn track(
         &mut self,
@@ -150,7 +160,7 @@ impl Recorder {
             .enumerate()
         {
             let name = piece_name(name, generation, i);
-            let mesh = piece(name.clone(), fragment, surfaces);
+            let mesh = piece(&name, fragment, surfaces);
             let extras = vec![
                 ("mass_kg".into(), fragment.mass.mass),
                 ("volume_m3".into(), fragment.mass.volume),

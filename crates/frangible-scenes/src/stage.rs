@@ -12,7 +12,7 @@ use frangible_rapier::{BreakableWorld, ColliderDetail, SurfaceProperties, WorldC
 use frangible_sound::Sounding;
 
 use crate::adhesive::glue;
-use crate::appearance::{appearance, authored_surface, projectile_surface};
+use crate::appearance::{appearance, authored_surface, painted_surface, projectile_surface};
 use crate::bake::BakedBody;
 use crate::body::{BodySpec, Place};
 use crate::bonds::bond;
@@ -235,10 +235,17 @@ fn put<'a>(
     let pose = Pose::from_parts(vector(centre), Rotation::from_xyzw(q.x, q.y, q.z, q.w));
     let sounding = Sounding::Modes(body.clone());
     let handle = world.insert_breakable(body, pose, vector(spec.velocity), vector(spec.spin))?;
-    let look = appearance(&asset.material.name);
+    let mut look = appearance(&asset.material.name);
     let clear = look.outside.transmission > 0.0;
+    if let Some(render) = &asset.render
+        && !render.colors.is_empty()
+    {
+        look.outside = painted_surface(&look.outside);
+    }
     let [outer, inner, crack, crack_line] =
         recorder.surfaces([look.outside, look.crack_face, look.crack, look.crack_line]);
+    let images = asset.render.iter().flat_map(|render| &render.images);
+    let images: Vec<u32> = images.map(|image| recorder.image(image)).collect();
     let authored = asset.render.iter().flat_map(|render| &render.materials);
     let surfaces = BodySurfaces {
         outer,
@@ -247,8 +254,13 @@ fn put<'a>(
         crack_line,
         clear,
         authored: authored
-            .map(|look| recorder.surface(authored_surface(look)))
+            .map(|look| recorder.surface(authored_surface(look, &images)))
             .collect(),
+        srgb_colors: asset.render.as_ref().is_some_and(|r| r.srgb_colors),
+        names: [
+            spec.name.clone(),
+            asset.render.as_ref().map_or("", |r| &r.name).to_owned(),
+        ],
     };
     let extras = vec![
         ("mass_kg".into(), asset.mass.mass),

@@ -8,7 +8,11 @@
 //!   and the time a node is to be seen told by its scale, 1 or 0, in steps.
 //!   Scale is the one switch that every viewer and Blender honour;
 //! * a material per surface, with `KHR_materials_transmission` and
-//!   `KHR_materials_ior` where they say something.
+//!   `KHR_materials_ior` where they say something, and the images of its
+//!   textures;
+//! * a primitive per surface of a mesh. Cracks that end inside a body have
+//!   primitives of their own, with `extras` that say so:
+//!   `{"name": …, "ends_inside": true}`.
 //!
 //! Nothing in the file depends on the time, the machine or hashing: the same
 //! recording gives the same bytes.
@@ -18,6 +22,7 @@ mod binary;
 mod material;
 mod mesh;
 mod scene;
+mod texture;
 
 use gltf_json as json;
 
@@ -45,7 +50,7 @@ pub fn write_glb(recording: &Recording) -> Result<Vec<u8>, ExportError> {
         ..json::Root::default()
     };
     let mut binary = Vec::new();
-    material::push_materials(&mut root, recording);
+    material::push_materials(&mut root, &mut binary, recording);
     scene::push_scene(&mut root, &mut binary, recording)?;
     animation::push_animation(&mut root, &mut binary, recording);
     if !binary.is_empty() {

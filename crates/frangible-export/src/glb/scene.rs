@@ -22,8 +22,8 @@ pub(super) fn push_scene(
     let meshes: Vec<_> = recording
         .meshes
         .iter()
-        .map(|mesh| push_mesh(root, binary, mesh))
-        .collect();
+        .map(|mesh| push_mesh(root, binary, mesh, &recording.surfaces))
+        .collect::<Result<_, _>>()?;
     let mut nodes = Vec::with_capacity(recording.nodes.len() + 2);
     for node in &recording.nodes {
         nodes.push(root.push(recorded_node(node, meshes[node.mesh])?));
@@ -34,7 +34,8 @@ pub(super) fn push_scene(
             root,
             binary,
             &floor_mesh(floor, recording.surfaces.len(), radius),
-        );
+            &[],
+        )?;
         nodes.push(root.push(json::Node {
             mesh,
             name: Some("floor".into()),
@@ -94,11 +95,11 @@ fn floor_mesh(floor: &Floor, surface: usize, radius: f32) -> RecordedMesh {
             corner(1.0, -1.0),
         ],
         normals: vec![Vec3::Y; 4],
-        uvs: Vec::new(),
         parts: vec![MeshPart {
             surface,
             indices: vec![0, 1, 2, 0, 2, 3],
         }],
+        ..RecordedMesh::default()
     }
 }
 
@@ -173,6 +174,7 @@ fn push_lights(root: &mut json::Root, view: &View) -> [json::Index<json::Node>; 
             )),
             extensions: Some(json::extensions::scene::Node {
                 khr_lights_punctual: Some(KhrLightsPunctual { light }),
+                ..Default::default()
             }),
             ..Default::default()
         })

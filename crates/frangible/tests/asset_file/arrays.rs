@@ -148,6 +148,22 @@ fn arrays_that_do_not_fit_are_refused() {
             |a| drawn(a).materials[1].metallic = 1.5,
             "render material 1",
         ),
+        (
+            |a| drawn(a).materials[0].emission[2] = f32::NAN,
+            "emission or the opacity that render material 0",
+        ),
+        (
+            |a| drawn(a).materials[0].textures[0].image = 1,
+            "texture of render material 0",
+        ),
+        (
+            |a| drawn(a).materials[0].textures[0].uv_set = 2,
+            "texture of render material 0",
+        ),
+        (
+            |a| drawn(a).more_uvs[0][1][0] = f32::NAN,
+            "further texture coordinates of render vertex 1",
+        ),
     ];
     fn drawn(asset: &mut Asset) -> &mut RenderSurface {
         asset.render.as_mut().unwrap()
