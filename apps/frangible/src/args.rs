@@ -358,6 +358,11 @@ pub(crate) struct BreakArgs {
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub(crate) contact_sheet: Option<i64>,
 
+    /// Detail of the drawn pieces: full (crack faces as computed, with cracks that end inside the body) or light (crack faces with fewer triangles,
+    /// at most 0.5 % of the body's longest side away, and vertices of 16 bits in the GLB) [default: the scene's own]
+    #[arg(long, value_name = "DETAIL")]
+    pub(crate) drawing: Option<DrawingArg>,
+
     /// Print the report as JSON instead of a table
     #[arg(long)]
     pub(crate) json: bool,
@@ -369,4 +374,11 @@ pub(crate) struct BreakArgs {
     /// Write no sound (WAV)
     #[arg(long)]
     pub(crate) no_sound: bool,
+}
+
+/// Detail of drawn pieces.
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+pub(crate) enum DrawingArg {
+    Full,
+    Light,
 }

@@ -32,6 +32,9 @@ pub(crate) fn with_cracks(
     state: &BodyState,
     surfaces: &BodySurfaces,
 ) -> Option<RecordedMesh> {
+    if surfaces.light.is_some() {
+        return None;
+    }
     let centre = asset.mass.centre.as_vec3();
     let mut triangles = Vec::new();
     for (corners, count) in state.new_faces(&asset.fracture) {
@@ -213,6 +216,7 @@ mod tests {
             clear: true,
             authored: Vec::new(),
             srgb_colors: false,
+            light: None,
             names: [String::new(), String::new()],
         };
         add_cracks(&mut mesh, &[[a, b, c], [a, c, d]], &surfaces);

@@ -183,7 +183,7 @@ impl FirstBreak {
         }
         for (i, fragment) in pieces.iter().enumerate() {
             let name = format!("{} piece {}", self.name, i + 1);
-            let mesh = piece(&name, fragment, &self.look);
+            let mesh = piece(&name, fragment, &self.look).mesh;
             self.put(
                 &mut still,
                 mesh,

@@ -237,7 +237,7 @@ impl LiveScene {
             .enumerate()
         {
             let name = format!("{} piece {}", of.name, i + 1);
-            let mesh = piece(&name, fragment, surfaces);
+            let mesh = piece(&name, fragment, surfaces).mesh;
             self.things.push(Arc::new(Thing {
                 name,
                 kind: ThingKind::Piece {
@@ -290,7 +290,7 @@ impl LiveScene {
             return Vec::new();
         };
         let shape = |fragment: &Fragment| {
-            let mesh = piece("", fragment, surfaces);
+            let mesh = piece("", fragment, surfaces).mesh;
             (fragment.mass.centre.as_vec3(), mesh)
         };
         fracture.fragments.iter().map(shape).collect()

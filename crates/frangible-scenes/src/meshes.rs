@@ -1,14 +1,17 @@
 //! Surfaces of bodies, pieces and balls as recorded meshes: one normal per vertex, a part per material.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
 
 use frangible::glam::Vec3;
 use frangible::internals::asset::RenderSurface;
 use frangible::internals::{RenderMesh, box_projection};
-use frangible::{Asset, Fragment};
+use frangible::{Asset, Fragment, TriMesh};
 use frangible_recording::{MeshPart, RecordedMesh};
 
 use crate::cracks::add_cracks;
+use crate::light::lightened;
+use crate::output::{Simplified, TOLERANCE};
 
 /// Indices of the surfaces (materials) of the outside and of the crack faces.
 #[derive(Clone, Debug)]
@@ -26,6 +29,8 @@ pub(crate) struct BodySurfaces {
     pub(crate) authored: Vec<usize>,
     /// True if the colours of vertices are sRGB.
     pub(crate) srgb_colors: bool,
+    /// Largest distance of simplified crack faces from the computed ones, m; none: they are drawn as computed.
+    pub(crate) light: Option<f32>,
     /// Name of the body, and the name of its mesh in the file that it came from, which may be empty.
     pub(crate) names: [String; 2],
 }
@@ -129,38 +134,66 @@ pub(crate) fn whole(node: &str, asset: &Asset, surfaces: &BodySurfaces) -> Recor
     builder.finish(name, vec![(surfaces.outer, indices)])
 }
 
-/// A piece: outside, crack faces, and cracks that entered it without parting it.
-pub(crate) fn piece(node: &str, fragment: &Fragment, surfaces: &BodySurfaces) -> RecordedMesh {
-    let mesh = &fragment.mesh;
+/// A piece as it is drawn.
+pub(crate) struct DrawnPiece {
+    pub(crate) mesh: RecordedMesh,
+    /// What simplifying it has done.
+    pub(crate) simplified: Simplified,
+}
+
+/// A piece: outside, crack faces, and cracks that entered it without parting it; these are left out of a light drawing.
+pub(crate) fn piece(node: &str, fragment: &Fragment, surfaces: &BodySurfaces) -> DrawnPiece {
+    let origin = fragment.mass.centre.as_vec3();
+    let mut drawn = match &fragment.render {
+        Some(render) => Cow::Borrowed(render),
+        None => Cow::Owned(undrawn(&fragment.mesh, origin)),
+    };
+    let mut simplified = Simplified::default();
+    if let Some(tolerance) = surfaces.light {
+        let (light, error) = lightened(&drawn, origin, tolerance);
+        simplified = Simplified {
+            full: drawn.triangles.len(),
+            light: light.triangles.len(),
+            error,
+            share: error / tolerance * TOLERANCE,
+        };
+        drawn = Cow::Owned(light);
+    }
     let mut builder = Builder {
-        origin: fragment.mass.centre.as_vec3(),
+        mesh: vertices(&drawn),
         ..Builder::default()
     };
-    let mut parts = Vec::new();
-    let mut inner = Vec::new();
-    if let Some(render) = &fragment.render {
-        let (outside, faces) = render.triangles.split_at(render.outer_triangles);
-        parts = by_material(outside, &render.material_of_triangle, surfaces);
-        inner.extend(faces.iter().flatten());
-        builder.mesh = vertices(render);
-        linear(&mut builder.mesh.colors, surfaces);
-    } else {
-        let mut outer = Vec::new();
-        for (i, (triangle, &normals)) in mesh.triangles.iter().zip(&mesh.normals).enumerate() {
-            let corners = triangle.map(|v| mesh.positions[v as usize]);
-            let corners = builder.triangle(*triangle, corners, normals, None);
-            if i < mesh.outer_triangles {
-                outer.extend(corners);
-            } else {
-                inner.extend(corners);
-            }
-        }
-        parts.push((surfaces.outer, outer));
+    linear(&mut builder.mesh.colors, surfaces);
+    let (outside, faces) = drawn.triangles.split_at(drawn.outer_triangles);
+    let mut parts = by_material(outside, &drawn.material_of_triangle, surfaces);
+    parts.push((surfaces.inner, faces.as_flattened().to_vec()));
+    let mut mesh = builder.finish(surfaces.mesh_name(node), parts);
+    if surfaces.light.is_none() {
+        add_cracks(&mut mesh, &fragment.mesh.cracks, surfaces);
     }
-    parts.push((surfaces.inner, inner));
-    let mut recorded = builder.finish(surfaces.mesh_name(node), parts);
-    add_cracks(&mut recorded, &mesh.cracks, surfaces);
-    recorded
+    DrawnPiece { mesh, simplified }
+}
+
+/// A piece of a body that no one drew. `origin`: its centre of mass in the body frame, m.
+fn undrawn(mesh: &TriMesh, origin: Vec3) -> RenderMesh {
+    let mut builder = Builder {
+        origin,
+        ..Builder::default()
+    };
+    let corners = mesh.triangles.iter().zip(&mesh.normals);
+    let triangles = corners.map(|(triangle, &normals)| {
+        let corners = triangle.map(|v| mesh.positions[v as usize]);
+        builder.triangle(*triangle, corners, normals, None)
+    });
+    let triangles = triangles.collect();
+    RenderMesh {
+        positions: builder.mesh.positions,
+        normals: builder.mesh.normals,
+        uvs: builder.mesh.uvs,
+        triangles,
+        outer_triangles: mesh.outer_triangles,
+        ..RenderMesh::default()
+    }
 }
 
 fn vertices(render: &RenderMesh) -> RecordedMesh {

@@ -16,7 +16,8 @@ use frangible_sound::{Sounding, recorded_blow};
 
 use crate::cameras::cameras;
 use crate::cracks::with_cracks;
-use crate::meshes::{BodySurfaces, piece};
+use crate::meshes::{BodySurfaces, DrawnPiece, piece};
+use crate::output::Simplified;
 use crate::touching::WorldTouching;
 
 /// Frames per second of a recording.
@@ -56,6 +57,8 @@ pub(crate) struct Recorder {
     break_frame: Option<usize>,
     /// Frame in which cracks first ran that parted nothing.
     crack_frame: Option<usize>,
+    /// What a light drawing has done so far.
+    pub(crate) simplified: Simplified,
 }
 
 impl Recorder {
@@ -74,6 +77,7 @@ impl Recorder {
             touching: WorldTouching::default(),
             break_frame: None,
             crack_frame: None,
+            simplified: Simplified::default(),
         }
     }
 
@@ -160,7 +164,8 @@ impl Recorder {
             .enumerate()
         {
             let name = piece_name(name, generation, i);
-            let mesh = piece(&name, fragment, surfaces);
+            let DrawnPiece { mesh, simplified } = piece(&name, fragment, surfaces);
+            self.simplified.add(&simplified);
             let extras = vec![
                 ("mass_kg".into(), fragment.mass.mass),
                 ("volume_m3".into(), fragment.mass.volume),

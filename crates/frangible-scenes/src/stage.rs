@@ -19,6 +19,7 @@ use crate::bonds::bond;
 use crate::error::SceneError;
 use crate::launch::{Launched, Target, launch, vector};
 use crate::meshes::{BodySurfaces, whole};
+use crate::output::{Drawing, TOLERANCE};
 use crate::overlap::check_overlaps;
 use crate::projectile::Projectile;
 use crate::recorder::{Recorder, Role};
@@ -116,7 +117,16 @@ pub(crate) fn set_up_kinds<'a>(
     for (i, (spec, kind)) in scene.bodies.iter().zip(kinds).enumerate() {
         let seed = seed_of(scene.seed, i);
         let floor = scene.floor.is_some();
-        bodies.push(put(&mut world, &mut recorder, spec, kind, seed, floor)?);
+        let drawing = scene.output.drawing;
+        bodies.push(put(
+            &mut world,
+            &mut recorder,
+            spec,
+            kind,
+            seed,
+            floor,
+            drawing,
+        )?);
     }
     let assets: Vec<Arc<Asset>> = kinds.iter().map(|kind| Arc::clone(kind.asset())).collect();
     check_overlaps(&bodies, &assets)?;
@@ -212,6 +222,7 @@ fn put<'a>(
     kind: &Breakable,
     seed: u64,
     floor: bool,
+    drawing: Drawing,
 ) -> Result<Placed<'a>, SceneError> {
     let asset = kind.asset();
     let lowest = lowest_point(asset, spec.rotation);
@@ -257,6 +268,7 @@ fn put<'a>(
             .map(|look| recorder.surface(authored_surface(look, &images)))
             .collect(),
         srgb_colors: asset.render.as_ref().is_some_and(|r| r.srgb_colors),
+        light: (drawing == Drawing::Light).then(|| TOLERANCE * longest_side(asset)),
         names: [
             spec.name.clone(),
             asset.render.as_ref().map_or("", |r| &r.name).to_owned(),
@@ -340,6 +352,14 @@ fn farthest_point(asset: &Asset) -> f32 {
         .iter()
         .map(|p| p.length())
         .fold(0.0, f32::max)
+}
+
+/// Longest side of the body's box, m.
+fn longest_side(asset: &Asset) -> f32 {
+    let nothing = [Vec3::INFINITY, Vec3::NEG_INFINITY];
+    let places = asset.fracture.positions.iter();
+    let [low, high] = places.fold(nothing, |[low, high], &p| [low.min(p), high.max(p)]);
+    (high - low).max_element()
 }
 
 /// Height of the body's lowest point below its centre of mass (negative), m.

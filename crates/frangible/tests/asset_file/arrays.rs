@@ -6,7 +6,7 @@ use super::*;
 fn arrays_that_do_not_fit_are_refused() {
     let nan = f32::NAN;
     type Change = fn(&mut Asset);
-    let cases: [(Change, &str); 46] = [
+    let cases: [(Change, &str); 50] = [
         (
             |a| a.supported[1] = 8,
             "supported node 1 lies beyond the 8 nodes",
