@@ -358,9 +358,9 @@ pub(crate) struct BreakArgs {
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub(crate) contact_sheet: Option<i64>,
 
-    /// Detail of the drawn pieces: full (crack faces as computed, with cracks that end inside the body) or light (crack faces with fewer triangles,
-    /// at most 0.5 % of the body's longest side away, and vertices of 16 bits in the GLB) [default: the scene's own]
-    #[arg(long, value_name = "DETAIL")]
+    /// Detail of the drawn pieces: crack faces as computed and cracks that end inside the body (full), or crack faces with fewer triangles, at most
+    /// 0.5 % of the body's longest side away, and a GLB with vertices of 16 bits (light) [default: the scene's own, or full]
+    #[arg(long, value_name = "full|light", hide_possible_values = true)]
     pub(crate) drawing: Option<DrawingArg>,
 
     /// Print the report as JSON instead of a table

@@ -114,22 +114,24 @@ fn indices((json, blob): &(Value, Vec<u8>), accessor: &Value) -> Vec<usize> {
 }
 
 fn broken(folder: &Folder, file: &str, options: &[&str]) -> (Value, (Value, Vec<u8>)) {
-    let args = [
-        &[
-            "break",
-            file,
-            "--material",
-            "glass",
-            "--drop",
-            "1",
-            "--json",
-            "--no-pictures",
-            "--no-sound",
-        ],
-        &["--modes", "20", "--resolution", "6000"],
-        options,
-    ]
-    .concat();
+    let given = [
+        "break",
+        file,
+        "--material",
+        "glass",
+        "--drop",
+        "1",
+        "--json",
+    ];
+    let quick = [
+        "--no-pictures",
+        "--no-sound",
+        "--modes",
+        "20",
+        "--resolution",
+        "6000",
+    ];
+    let args = [&given[..], &quick, options].concat();
     let run = frangible(&args, Some(&folder.0.join("out")));
     assert!(run.status.success(), "{}", text(&run.stderr));
     let report = serde_json::from_slice(&run.stdout).expect("JSON");

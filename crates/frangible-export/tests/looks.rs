@@ -1,6 +1,6 @@
 //! Colours, textures and marks of a written file, read back by another library.
 
-use frangible_export::write_glb;
+use frangible_export::{GlbOptions, write_glb, write_glb_with};
 use frangible_recording::glam::Vec3;
 use frangible_recording::{
     Blending, Image, ImageKind, MeshPart, Placement, Pose, RecordedMesh, RecordedNode, Recording,
@@ -200,4 +200,69 @@ fn unsound_looks_are_errors() {
         let error = write_glb(&recording).unwrap_err().to_string();
         assert!(error.contains(words), "{error}; expected: {words}");
     }
+}
+
+#[test]
+fn quantised_vertices_are_near_those_given() {
+    let mut recording = recording();
+    let places = [[0.3, -0.02, 0.1], [0.5, 0.04, 0.1], [0.35, 0.0, 0.101]].map(Vec3::from_array);
+    recording.meshes[0].positions = places.to_vec();
+    recording.meshes[0].normals = [Vec3::new(1.0, -2.0, 0.5), Vec3::Y, Vec3::NEG_Z].to_vec();
+    let mut options = GlbOptions::default();
+    options.quantized = true;
+    let bytes = write_glb_with(&recording, &options).unwrap();
+    assert!(
+        gltf::Gltf::from_slice(&bytes).is_err(),
+        "a reader without the extension"
+    );
+    let file = gltf::Gltf::from_slice_without_validation(&bytes).unwrap();
+    assert_eq!(
+        file.extensions_required().collect::<Vec<_>>(),
+        ["KHR_mesh_quantization"]
+    );
+    let blob = file.blob.as_deref().unwrap();
+    let node = file.nodes().next().unwrap();
+    let child = node.children().next().expect("a node for the mesh");
+    assert!(
+        node.mesh().is_none()
+            && file
+                .scenes()
+                .next()
+                .unwrap()
+                .nodes()
+                .all(|n| n.index() != child.index())
+    );
+    let (center, _, scale) = child.transform().decomposed();
+    let primitive = child.mesh().unwrap().primitives().next().unwrap();
+    let rows = |semantic, size: usize| {
+        let accessor = primitive.get(&semantic).unwrap();
+        let view = accessor.view().unwrap();
+        let stride = view.stride().unwrap();
+        assert!(
+            accessor.normalized() && stride.is_multiple_of(4) && view.offset().is_multiple_of(4)
+        );
+        (0..3)
+            .map(|k| blob[view.offset() + k * stride..][..size].to_vec())
+            .collect::<Vec<_>>()
+    };
+    for (row, place) in rows(gltf::Semantic::Positions, 6).iter().zip(places) {
+        for axis in 0..3 {
+            let whole = i16::from_le_bytes([row[2 * axis], row[2 * axis + 1]]);
+            let found = center[axis] + scale[axis] * f32::from(whole) / 32767.0;
+            // Half a step of the longest side.
+            assert!((found - place[axis]).abs() < 0.2 * 8e-6, "{found} {place}");
+        }
+    }
+    for (row, normal) in rows(gltf::Semantic::Normals, 3)
+        .iter()
+        .zip(&recording.meshes[0].normals)
+    {
+        let found = Vec3::from_array([0, 1, 2].map(|k| f32::from(row[k] as i8) / 127.0));
+        assert!(
+            found.distance(normal.normalize()) < 0.01,
+            "{found} {normal}"
+        );
+    }
+    let color = &rows(gltf::Semantic::Colors(0), 8)[0];
+    assert_eq!(color[2..4], 32768_u16.to_le_bytes());
 }
