@@ -382,3 +382,12 @@ pub(crate) enum DrawingArg {
     Full,
     Light,
 }
+
+impl From<DrawingArg> for frangible_scenes::Drawing {
+    fn from(drawing: DrawingArg) -> Self {
+        match drawing {
+            DrawingArg::Full => Self::Full,
+            DrawingArg::Light => Self::Light,
+        }
+    }
+}

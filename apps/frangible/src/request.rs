@@ -8,10 +8,10 @@ use frangible::glam::{Quat, Vec3};
 use frangible_bake::frangible_mesh::PartChoice;
 use frangible_bake::{MOST_MODES, USUAL_MODES};
 use frangible_scenes::{
-    Axis, BodySource, Drawing, FileKind, FileWish, MaterialEdit, Projectile, SCENE_NAMES, Scene,
+    Axis, BodySource, FileKind, FileWish, MaterialEdit, Projectile, SCENE_NAMES, Scene,
 };
 
-use crate::args::{BakeArgs, BreakArgs, DrawingArg, MeshArgs, ModesArgs, SceneArgs};
+use crate::args::{BakeArgs, BreakArgs, MeshArgs, ModesArgs, SceneArgs};
 use crate::support::parse_support;
 
 /// A scene, with notes on the defaults that were chosen for it.
@@ -39,10 +39,8 @@ pub(crate) fn break_of(file: Option<&Path>, args: &BreakArgs) -> Result<Request,
             wanted.output.contact_sheet = FileWish::Yes;
         }
     }
-    match args.drawing {
-        Some(DrawingArg::Light) => wanted.output.drawing = Drawing::Light,
-        Some(DrawingArg::Full) => wanted.output.drawing = Drawing::Full,
-        None => {}
+    if let Some(drawing) = args.drawing {
+        wanted.output.drawing = drawing.into();
     }
     if args.no_pictures {
         wanted.output.picture = FileWish::No;
