@@ -358,6 +358,11 @@ pub(crate) struct BreakArgs {
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub(crate) contact_sheet: Option<i64>,
 
+    /// Detail of the drawn pieces: crack faces as computed and cracks that end inside the body (full), or crack faces with fewer triangles, at most
+    /// 0.5 % of the body's longest side away, and a GLB with vertices of 16 bits (light) [default: the scene's own, or full]
+    #[arg(long, value_name = "full|light", hide_possible_values = true)]
+    pub(crate) drawing: Option<DrawingArg>,
+
     /// Print the report as JSON instead of a table
     #[arg(long)]
     pub(crate) json: bool,
@@ -369,4 +374,20 @@ pub(crate) struct BreakArgs {
     /// Write no sound (WAV)
     #[arg(long)]
     pub(crate) no_sound: bool,
+}
+
+/// Detail of drawn pieces.
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+pub(crate) enum DrawingArg {
+    Full,
+    Light,
+}
+
+impl From<DrawingArg> for frangible_scenes::Drawing {
+    fn from(drawing: DrawingArg) -> Self {
+        match drawing {
+            DrawingArg::Full => Self::Full,
+            DrawingArg::Light => Self::Light,
+        }
+    }
 }

@@ -5,11 +5,11 @@ use std::path::Path;
 use std::time::Instant;
 
 use frangible::internals::Fields;
-use frangible_export::write_glb;
+use frangible_export::{GlbOptions, write_glb_with};
 use frangible_recording::write_atomically;
 use frangible_scenes::{
-    BakedBody, BodySpec, Opened, Run, Scene, Sounded, Sounding, bake_opened, open_scene, play,
-    sound, sound_config,
+    BakedBody, BodySpec, Drawing, Opened, Run, Scene, Sounded, Sounding, bake_opened, open_scene,
+    play, sound, sound_config,
 };
 
 use crate::args::BreakArgs;
@@ -57,6 +57,7 @@ pub(crate) fn run(file: Option<&Path>, args: &BreakArgs) -> Result<(), Box<dyn E
     };
     stages.extend(stages_of(run));
     notes.extend(missed(run));
+    notes.extend(lighter(run));
 
     let mut files = Vec::new();
     let mut write = |name: String, bytes: &[u8]| -> Result<(), Box<dyn Error>> {
@@ -67,7 +68,9 @@ pub(crate) fn run(file: Option<&Path>, args: &BreakArgs) -> Result<(), Box<dyn E
     };
     if let Some(name) = glb {
         let clock = Instant::now();
-        write(name, &write_glb(&run.recording)?)?;
+        let mut options = GlbOptions::default();
+        options.quantized = scene.output.drawing == Drawing::Light;
+        write(name, &write_glb_with(&run.recording, &options)?)?;
         stages.push(("GLB".into(), 1e3 * clock.elapsed().as_secs_f64()));
     }
     if let Some(name) = wav {
@@ -138,6 +141,20 @@ fn missed(run: &Run) -> Option<String> {
         "no projectile hit a body in the {:.2} s of the run; aim with --at and --toward (in a scene file: `at` and `toward`)",
         run.simulated
     ))
+}
+
+/// Note on what a light drawing has left.
+fn lighter(run: &Run) -> Option<String> {
+    let drawn = &run.simplified;
+    (drawn.full > 0).then(|| {
+        format!(
+            "light drawing: {} triangles of pieces instead of {}, at most {:.3} mm away ({:.2} % of the body), without cracks that end inside",
+            drawn.light,
+            drawn.full,
+            1e3 * drawn.error,
+            100.0 * drawn.share
+        )
+    })
 }
 
 /// Notes on a sound: its peak level or its silence, and anything left out because there was too much at once.

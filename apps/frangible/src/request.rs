@@ -39,6 +39,9 @@ pub(crate) fn break_of(file: Option<&Path>, args: &BreakArgs) -> Result<Request,
             wanted.output.contact_sheet = FileWish::Yes;
         }
     }
+    if let Some(drawing) = args.drawing {
+        wanted.output.drawing = drawing.into();
+    }
     if args.no_pictures {
         wanted.output.picture = FileWish::No;
         wanted.output.contact_sheet = FileWish::No;

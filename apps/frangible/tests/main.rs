@@ -5,6 +5,7 @@ mod common;
 mod files;
 #[cfg(unix)]
 mod hardship;
+mod looks;
 mod modes;
 mod parts;
 #[cfg(feature = "view")]

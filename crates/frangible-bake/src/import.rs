@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use frangible::glam::DVec3;
-use frangible::internals::asset::{RenderMaterial, RenderSurface};
+use frangible::internals::asset::RenderSurface;
 use frangible_mesh::{
     InputMesh, MeshSolid, PartChoice, Parts, RepairReport, Similarity, SkinWall, Solid, Surface,
     Thickness, VolumeAim, Wall, WeldedSolid, repair, repair_skin, wall_thickness,
@@ -154,7 +154,7 @@ pub fn import_parts(mesh: &InputMesh, options: &ImportOptions) -> Result<Importe
                 name: String::new(),
                 centre: body.centre,
                 tets: options.tets,
-                body: body.imported(mesh, similarity, options, options.tets),
+                body: body.imported((mesh, ""), similarity, options, options.tets),
             }],
             note: None,
         });
@@ -183,11 +183,16 @@ pub fn import_parts(mesh: &InputMesh, options: &ImportOptions) -> Result<Importe
                 solved(&own, &similarity, exact.unwrap_or(VolumeAim::Counted))?
             }
         };
+        let first = body.parts.first().and_then(|&part| found.list.get(part));
+        let name = match (&body.name[..], first) {
+            ("", Some(first)) => &first.name,
+            (name, _) => name,
+        };
         parts.push(ImportedPart {
             name: body.name.clone(),
             centre: solved.centre,
             tets,
-            body: solved.imported(&own, similarity, options, tets),
+            body: solved.imported((&own, name), similarity, options, tets),
         });
     }
     let note = chosen.note;
@@ -333,7 +338,7 @@ fn counted_centre(solid: &MeshSolid) -> DVec3 {
 impl Solved {
     fn imported(
         self,
-        mesh: &InputMesh,
+        (mesh, name): (&InputMesh, &str),
         similarity: Similarity,
         options: &ImportOptions,
         tets: usize,
@@ -348,7 +353,7 @@ impl Solved {
         let layers = self.layers.and_then(|wall| layered(wall, tets));
         Imported {
             shape: layers.unwrap_or(Shape::Solid(lattice)),
-            render: (options.wall.is_none()).then(|| drawn(mesh, &similarity)),
+            render: (options.wall.is_none()).then(|| drawn(mesh, name, &similarity)),
             groups: Group::of_mesh(mesh, &similarity),
             mended: self.mended,
             thickness: self.thickness,
@@ -358,8 +363,9 @@ impl Solved {
 }
 
 /// The mesh as drawn, its vertices, texture coordinates, normals, colours and materials kept.
-fn drawn(mesh: &InputMesh, similarity: &Similarity) -> RenderSurface {
+fn drawn(mesh: &InputMesh, name: &str, similarity: &Similarity) -> RenderSurface {
     RenderSurface {
+        name: name.to_owned(),
         positions: mesh
             .positions
             .iter()
@@ -367,18 +373,16 @@ fn drawn(mesh: &InputMesh, similarity: &Similarity) -> RenderSurface {
             .collect(),
         normals: mesh.normals.clone(),
         uvs: mesh.uvs.iter().map(|uv| uv.to_array()).collect(),
+        more_uvs: mesh
+            .more_uvs
+            .iter()
+            .map(|uvs| uvs.iter().map(|uv| uv.to_array()).collect())
+            .collect(),
         colors: mesh.colors.clone(),
+        srgb_colors: mesh.srgb_colors,
         triangles: mesh.triangles.clone(),
         material_of_triangle: mesh.material_of_triangle.clone(),
-        materials: mesh
-            .materials
-            .iter()
-            .map(|m| RenderMaterial {
-                name: m.name.clone(),
-                base_color: m.base_color,
-                metallic: m.metallic,
-                roughness: m.roughness,
-            })
-            .collect(),
+        materials: mesh.materials.clone(),
+        images: mesh.images.clone(),
     }
 }

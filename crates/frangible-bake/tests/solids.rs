@@ -6,7 +6,9 @@ use std::sync::Arc;
 use frangible::glam::{DVec3, Vec2, Vec3};
 use frangible::internals::mesh::NO_NEIGHBOUR;
 use frangible::{Asset, Material};
-use frangible_bake::frangible_mesh::{DistanceSolid, InputMaterial, InputMesh, TetError};
+use frangible_bake::frangible_mesh::{
+    DistanceSolid, Image, ImageKind, InputMaterial, InputMesh, TetError, Texture, TextureSlot,
+};
 use frangible_bake::{
     BakeError, BakeReport, BakeSpec, ImportOptions, READY_SHAPES, Shape, SolidShape, bake,
     import_mesh,
@@ -253,6 +255,8 @@ fn painted_box() -> InputMesh {
             mesh.normals
                 .push((b - a).cross(c - a).normalize().as_vec3());
             mesh.uvs.push(Vec2::new(side as f32 / 6.0, i as f32 / 4.0));
+            mesh.colors
+                .push([side as f32 / 6.0, i as f32 / 4.0, 0.5, 1.0]);
         }
         mesh.triangles
             .extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
@@ -267,8 +271,19 @@ fn painted_box() -> InputMesh {
             base_color: [0.1 * i as f32, 0.5, 0.25, 1.0],
             metallic: 0.5 * i as f32,
             roughness: 0.3,
+            emission: [0.0, 2.0, 0.5],
+            double_sided: i == 1,
+            textures: vec![Texture::of(TextureSlot::BaseColor, 0)],
+            ..InputMaterial::default()
         })
         .collect();
+    mesh.more_uvs = vec![mesh.uvs.iter().map(|uv| -*uv).collect()];
+    mesh.srgb_colors = true;
+    mesh.images = vec![Image {
+        name: "glaze".into(),
+        kind: ImageKind::Png,
+        bytes: b"png".as_slice().into(),
+    }];
     mesh
 }
 
@@ -292,15 +307,11 @@ fn the_drawn_surface_comes_through_untouched_and_lies_on_the_body() {
         let uvs: Vec<Vec2> = render.uvs.iter().copied().map(Vec2::from).collect();
         assert_eq!(uvs, mesh.uvs);
         assert_eq!(render.material_of_triangle, mesh.material_of_triangle);
-        for (drawn, given) in render.materials.iter().zip(&mesh.materials) {
-            assert_eq!(drawn.name, given.name);
-            assert_eq!(drawn.base_color, given.base_color);
-            assert_eq!(
-                (drawn.metallic, drawn.roughness),
-                (given.metallic, given.roughness)
-            );
-        }
-        assert_eq!(render.materials.len(), mesh.materials.len());
+        assert_eq!(render.materials, mesh.materials);
+        assert_eq!(render.images, mesh.images);
+        assert_eq!((&render.colors, render.srgb_colors), (&mesh.colors, true));
+        let more: Vec<Vec2> = render.more_uvs[0].iter().copied().map(Vec2::from).collect();
+        assert_eq!(more, mesh.more_uvs[0]);
         let cell = report.tetrahedra.unwrap().cell as f32;
         let (drawn, solid) = (bounds(&render.positions), bounds(&asset.fracture.positions));
         for (drawn, solid) in drawn.into_iter().zip(solid) {

@@ -11,5 +11,5 @@ mod vtu;
 
 pub use error::ExportError;
 pub use frangible_recording;
-pub use glb::write_glb;
+pub use glb::{GlbOptions, write_glb, write_glb_with};
 pub use vtu::{VtuCells, VtuField, VtuMesh, VtuValues, write_vtu};

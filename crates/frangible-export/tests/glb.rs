@@ -31,6 +31,7 @@ fn recording() -> Recording {
                 indices: vec![0, 1, 3, 1, 2, 3],
             },
         ],
+        ..RecordedMesh::default()
     };
     let pose = |frame: usize, drift: f32| {
         let time = frame.min(7) as f32;
@@ -272,7 +273,7 @@ fn an_unsound_recording_is_an_error_that_names_the_place() {
         ),
         (
             |r| r.meshes[2].uvs[3][1] = f32::INFINITY,
-            &["texture coordinate 3", "right", "inf"],
+            &["row 3", "texture coordinates", "right", "inf"],
         ),
         (
             |r| r.meshes[2].parts[1].indices[4] = 4,

@@ -1,4 +1,5 @@
 //! Written files, read back by others.
 
 mod glb;
+mod looks;
 mod vtu;

@@ -33,8 +33,8 @@ pub use closest::closest_on_triangle;
 pub use convex::{bounds, box_of, merged_parts, thinned};
 pub use disjoint::DisjointSets;
 pub use drawn::{
-    Boundary, Division, Part, Parts, Piece as DrawnPiece, RenderIndex, RenderMaterial,
-    RenderSurface,
+    Blending, Boundary, Division, Image, ImageKind, Part, Parts, Piece as DrawnPiece, Placement,
+    RenderIndex, RenderMaterial, RenderSurface, Texture, TextureSlot, Wrap,
 };
 pub use glam;
 pub use mass::MassProperties;

@@ -20,6 +20,10 @@ pub struct RenderMesh {
     /// Texture coordinates, one pair per vertex: the authored ones on outer faces, if there are any; otherwise, and on crack faces, the
     /// [`box_projection`] of the position in the parent's body frame, m.
     pub uvs: Vec<[f32; 2]>,
+    /// Further sets of texture coordinates, as many as the surface has, interpolated like the first; zero on crack faces.
+    pub more_uvs: Vec<Vec<[f32; 2]>>,
+    /// Colours of the vertices (red, green, blue and opacity), if the surface has any, interpolated; white on crack faces.
+    pub colors: Vec<[f32; 4]>,
     /// Vertices of each triangle, counter-clockwise seen from outside. The first [`RenderMesh::outer_triangles`]
     /// are the authored surface, the rest crack faces and the triangles that join the two.
     pub triangles: Vec<[u32; 3]>,

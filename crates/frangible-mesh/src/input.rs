@@ -3,7 +3,11 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
+use frangible_geometry::{Image, RenderMaterial};
 use glam::{DVec3, Vec2, Vec3};
+
+/// A material for rendering.
+pub type InputMaterial = RenderMaterial;
 
 /// Triangles with the attributes from the file, unmodified.
 ///
@@ -16,19 +20,27 @@ pub struct InputMesh {
     pub normals: Vec<Vec3>,
     /// One texture coordinate per vertex, or empty; as in glTF, with the origin at the top left and v down.
     pub uvs: Vec<Vec2>,
+    /// Further sets of texture coordinates, each of all vertices; in glTF from `TEXCOORD_1` on.
+    pub more_uvs: Vec<Vec<Vec2>>,
     /// One colour per vertex, or empty: red, green, blue and opacity, each 0..=1 and as in the file (linear in glTF, usually sRGB in other
     /// formats). Vertices on a seam have a colour on each side.
     pub colors: Vec<[f32; 4]>,
+    /// True if the colours are sRGB, false if they are linear.
+    pub srgb_colors: bool,
     /// Vertex indices of each triangle.
     pub triangles: Vec<[u32; 3]>,
     /// Index into [`InputMesh::materials`] of each triangle, or empty if the file has no materials.
     pub material_of_triangle: Vec<u32>,
     /// Materials for rendering.
     pub materials: Vec<InputMaterial>,
+    /// Images of their textures.
+    pub images: Vec<Image>,
     /// Other named parts: groups and objects of an OBJ, nodes and meshes of a glTF, solids of a text STL.
     pub groups: Vec<InputGroup>,
     /// Number of skipped faces with fewer than three vertices.
     pub skipped_faces: usize,
+    /// Contents of the file that are not kept, in words, such as `tangents`; sorted, each once.
+    pub left_out: Vec<String>,
 }
 
 /// A named range of triangles; a name may have several ranges, and a triangle several names.
@@ -41,6 +53,15 @@ pub struct InputGroup {
 }
 
 impl InputMesh {
+    /// Takes down what of the file is not kept.
+    #[cfg(feature = "mesh-io")]
+    pub(crate) fn leave_out(&mut self, what: impl Into<String>) {
+        let what = what.into();
+        if let Err(place) = self.left_out.binary_search(&what) {
+            self.left_out.insert(place, what);
+        }
+    }
+
     /// Returns the triangles of each group and material, sorted by name. Groups and materials with the same name are one part; names without
     /// triangles are omitted.
     #[must_use]
@@ -67,29 +88,5 @@ impl InputMesh {
                 (name.to_string(), triangles)
             })
             .collect()
-    }
-}
-
-/// A material for rendering.
-#[derive(Clone, Debug, PartialEq)]
-pub struct InputMaterial {
-    /// Name in the file.
-    pub name: String,
-    /// Linear base colour and opacity, 0..=1.
-    pub base_color: [f32; 4],
-    /// 0 dielectric, 1 metal.
-    pub metallic: f32,
-    /// 0 mirror, 1 matt.
-    pub roughness: f32,
-}
-
-impl Default for InputMaterial {
-    fn default() -> Self {
-        Self {
-            name: String::new(),
-            base_color: [0.8, 0.8, 0.8, 1.0],
-            metallic: 0.0,
-            roughness: 0.7,
-        }
     }
 }

@@ -33,6 +33,7 @@ mod winding;
 
 pub use distance::DistanceSolid;
 pub use error::TetError;
+pub use frangible_geometry::{Blending, Image, ImageKind, Placement, Texture, TextureSlot, Wrap};
 pub use glam;
 pub use input::{InputGroup, InputMaterial, InputMesh};
 pub use mend_tets::{MendedTets, NodeGroup, TetInputError, TetMend, mend_tets};

@@ -139,6 +139,7 @@ pub fn moment_between(
         frame_rate: recording.frame_rate,
         frame_count: 1,
         surfaces: recording.surfaces.clone(),
+        images: recording.images.clone(),
         floor: recording.floor,
         camera: recording.camera,
         ..Recording::default()

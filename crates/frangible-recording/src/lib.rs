@@ -19,6 +19,7 @@ mod validate;
 
 pub use atomic::write_atomically;
 pub use error::{RecordingError, WriteError};
+pub use frangible_geometry::{Blending, Image, ImageKind, Placement, Texture, TextureSlot, Wrap};
 pub use glam;
 pub use place::{make_folder, try_file};
 pub use recording::{

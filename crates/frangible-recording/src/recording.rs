@@ -4,6 +4,7 @@
 
 use std::ops::Range;
 
+use frangible_geometry::{Blending, Image, Texture};
 use glam::{Quat, Vec3};
 
 /// Recording of a scene's motion and breaks, from which pictures, films and sound are made.
@@ -31,6 +32,8 @@ pub struct Recording {
     pub frame_count: usize,
     /// The materials that mesh parts refer to by index.
     pub surfaces: Vec<SurfaceMaterial>,
+    /// The images of their textures.
+    pub images: Vec<Image>,
     /// The shapes that nodes refer to by index.
     pub meshes: Vec<RecordedMesh>,
     /// The rigid objects of the scene.
@@ -162,6 +165,15 @@ pub struct SurfaceMaterial {
     pub thin: bool,
     /// Fine detail of the surface.
     pub grain: Grain,
+    /// Light that it emits: linear red, green and blue, 0 or more.
+    pub emission: [f32; 3],
+    /// Meaning of the opacity of its base colour, its textures and its vertices.
+    pub blending: Blending,
+    /// Textures, as the author of a mesh gave them. The pictures and films of this project do not show them.
+    pub textures: Vec<Texture>,
+    /// True for cracks that end inside a body: faces without thickness, and lines along their border, which separate nothing. A body is closed
+    /// without them.
+    pub ends_inside: bool,
 }
 
 /// Fine detail of a surface, for renderers that support it.
@@ -196,6 +208,10 @@ impl Default for SurfaceMaterial {
             attenuation_distance: f32::INFINITY,
             thin: false,
             grain: Grain::Even,
+            emission: [0.0; 3],
+            blending: Blending::Auto,
+            textures: Vec::new(),
+            ends_inside: false,
         }
     }
 }
@@ -211,6 +227,10 @@ pub struct RecordedMesh {
     pub normals: Vec<Vec3>,
     /// Texture coordinates, v downwards as in glTF: none, or one pair per position.
     pub uvs: Vec<[f32; 2]>,
+    /// Further sets of texture coordinates, each with one pair per position.
+    pub more_uvs: Vec<Vec<[f32; 2]>>,
+    /// Linear colours (red, green, blue and opacity), which multiply those of the surfaces: none, or one per position.
+    pub colors: Vec<[f32; 4]>,
     /// The triangles, grouped by material.
     pub parts: Vec<MeshPart>,
 }

@@ -1,5 +1,6 @@
 //! Checks a recording, so that writers may index without fear.
 
+use frangible_geometry::{Blending, Placement};
 use glam::Vec3;
 
 use crate::RecordingError;
@@ -26,7 +27,7 @@ impl Recording {
             "the frame rate".into()
         })?;
         for surface in &self.surfaces {
-            check_surface(surface)?;
+            check_surface(surface, self.images.len())?;
         }
         for mesh in &self.meshes {
             check_mesh(mesh, self.surfaces.len())?;
@@ -157,7 +158,7 @@ fn check_slide(i: usize, slide: &RecordedSlide, nodes: usize) -> Checked {
     finite(slide.power, || format!("the power of slide {i}"))
 }
 
-fn check_surface(surface: &SurfaceMaterial) -> Checked {
+fn check_surface(surface: &SurfaceMaterial, images: usize) -> Checked {
     let name = &surface.name;
     let [r, g, b, opacity] = surface.base_color;
     let fractions = [
@@ -184,7 +185,33 @@ fn check_surface(surface: &SurfaceMaterial) -> Checked {
     let distance = f64::from(surface.attenuation_distance);
     let what = || format!("the attenuation distance of the surface \"{name}\"");
     // Infinite where nothing is swallowed.
-    in_range(distance, distance > 0.0, "above zero, in m", what)
+    in_range(distance, distance > 0.0, "above zero, in m", what)?;
+    for part in surface.emission.map(f64::from) {
+        let what = || format!("the emission of the surface \"{name}\"");
+        finite(part, what)?;
+        in_range(part, part >= 0.0, "0 or more", what)?;
+    }
+    if let Blending::Mask(least) = surface.blending {
+        fraction(least, || {
+            format!("the opacity that the surface \"{name}\" needs")
+        })?;
+    }
+    for texture in &surface.textures {
+        index(texture.image as usize, images, || {
+            format!("the image of a texture of the surface \"{name}\"")
+        })?;
+        let Placement {
+            offset: [u, v],
+            rotation,
+            scale: [along, across],
+        } = texture.placement;
+        for number in [texture.strength, u, v, rotation, along, across] {
+            finite(f64::from(number), || {
+                format!("a number of a texture of the surface \"{name}\"")
+            })?;
+        }
+    }
+    Ok(())
 }
 
 fn check_mesh(mesh: &RecordedMesh, surfaces: usize) -> Checked {
@@ -196,23 +223,20 @@ fn check_mesh(mesh: &RecordedMesh, surfaces: usize) -> Checked {
             expected: format!("{}, one per position, are", mesh.positions.len()),
         });
     }
-    if !mesh.uvs.is_empty() && mesh.uvs.len() != mesh.positions.len() {
-        return Err(RecordingError::BadCount {
-            what: format!("the texture coordinates of the mesh \"{name}\""),
-            count: mesh.uvs.len(),
-            expected: format!(
-                "none or {}, one pair per position, are",
-                mesh.positions.len()
-            ),
-        });
+    let count = mesh.positions.len();
+    for uvs in mesh.more_uvs.iter().chain([&mesh.uvs]) {
+        per_position(uvs, count, || {
+            format!("texture coordinates of the mesh \"{name}\"")
+        })?;
     }
-    for (i, uv) in mesh.uvs.iter().enumerate() {
-        for &part in uv {
-            finite(f64::from(part), || {
-                format!("texture coordinate {i} of the mesh \"{name}\"")
-            })?;
-        }
+    for uvs in mesh.more_uvs.iter().filter(|_| count > 0) {
+        index(0, uvs.len(), || {
+            format!("a further set of texture coordinates of the mesh \"{name}\"")
+        })?;
     }
+    per_position(&mesh.colors, count, || {
+        format!("colours of the mesh \"{name}\"")
+    })?;
     for (i, (&position, &normal)) in mesh.positions.iter().zip(&mesh.normals).enumerate() {
         finite_vector(position, || format!("position {i} of the mesh \"{name}\""))?;
         finite_vector(normal, || format!("normal {i} of the mesh \"{name}\""))?;
@@ -231,6 +255,27 @@ fn check_mesh(mesh: &RecordedMesh, surfaces: usize) -> Checked {
         for (i, &vertex) in part.indices.iter().enumerate() {
             let what = || format!("index {i} of part {p} of the mesh \"{name}\"");
             index(vertex as usize, mesh.positions.len(), what)?;
+        }
+    }
+    Ok(())
+}
+
+/// Checks that there are no rows or one per position, all of finite numbers.
+fn per_position<const N: usize>(
+    rows: &[[f32; N]],
+    count: usize,
+    what: impl Fn() -> String,
+) -> Checked {
+    if !rows.is_empty() && rows.len() != count {
+        return Err(RecordingError::BadCount {
+            what: format!("the {}", what()),
+            count: rows.len(),
+            expected: format!("none or {count}, one per position, are"),
+        });
+    }
+    for (i, row) in rows.iter().enumerate() {
+        for &part in row {
+            finite(f64::from(part), || format!("row {i} of the {}", what()))?;
         }
     }
     Ok(())

@@ -1,7 +1,7 @@
 //! Appearance of materials: outside and crack faces.
 
 use frangible::internals::asset::RenderMaterial;
-use frangible_recording::{Grain, SurfaceMaterial};
+use frangible_recording::{Grain, SurfaceMaterial, Texture};
 
 /// Appearance of the parts of a body.
 pub(crate) struct Appearance {
@@ -24,18 +24,18 @@ pub(crate) fn appearance(material: &str) -> Appearance {
     let opaque = |outer: [f32; 3], inner: [f32; 3], roughness: f32, grains: [Grain; 2]| {
         let [a, b] = [outer, inner].map(|[r, g, b]| [r, g, b, 1.0]);
         let [red, green, blue] = inner.map(|part| 0.12 * part);
-        let crack_face = SurfaceMaterial {
+        let crack_face = |part: &str| SurfaceMaterial {
             grain: grains[1],
-            ..plain("crack face", b, 0.85)
+            ..plain(part, b, 0.85)
         };
         Appearance {
             outside: SurfaceMaterial {
                 grain: grains[0],
                 ..plain("outside", a, roughness)
             },
-            crack: crack_face.clone(),
-            crack_face,
-            crack_line: plain("crack line", [red, green, blue, 1.0], 1.0),
+            crack: ending(crack_face("crack")),
+            crack_face: crack_face("crack face"),
+            crack_line: ending(plain("crack line", [red, green, blue, 1.0], 1.0)),
         }
     };
     // Renderers that do not trace light draw clear bodies with some opacity and darker crack faces, so that shards can be told apart.
@@ -63,12 +63,12 @@ pub(crate) fn appearance(material: &str) -> Appearance {
                 grain: broken,
                 ..part("crack face", inner, 0.25)
             },
-            crack: SurfaceMaterial {
+            crack: ending(SurfaceMaterial {
                 thin: true,
                 grain: Grain::Broken,
                 ..part("crack", [0.9, 0.95, 0.95, 0.45], 0.25)
-            },
-            crack_line: plain("crack line", [0.75, 0.82, 0.80, 1.0], 0.6),
+            }),
+            crack_line: ending(plain("crack line", [0.75, 0.82, 0.80, 1.0], 0.6)),
         }
     };
     let even = [Grain::Even, Grain::Broken];
@@ -127,18 +127,43 @@ pub(crate) fn appearance(material: &str) -> Appearance {
     }
 }
 
+/// Marks the look of a crack that ends inside its body.
+fn ending(look: SurfaceMaterial) -> SurfaceMaterial {
+    SurfaceMaterial {
+        ends_inside: true,
+        ..look
+    }
+}
+
 /// Distance that light goes through a clear body until it has the body's colour, m: a good deal farther than a wall is thick, so that panes are
 /// clear and their edges, along which light runs, are not.
 const COLOR_DEPTH: f32 = 0.04;
 
-/// Surface of a part of a mesh file, as its author drew it.
-pub(crate) fn authored_surface(look: &RenderMaterial) -> SurfaceMaterial {
+/// Surface of a part of a mesh file, as its author drew it. `images`: numbers of its images in the recording.
+pub(crate) fn authored_surface(look: &RenderMaterial, images: &[u32]) -> SurfaceMaterial {
+    let textures = look.textures.iter().map(|texture| Texture {
+        image: images[texture.image as usize],
+        ..*texture
+    });
     SurfaceMaterial {
         name: look.name.clone(),
         base_color: look.base_color,
         metallic: look.metallic,
         roughness: look.roughness,
-        double_sided: look.base_color[3] < 1.0,
+        double_sided: look.double_sided || look.base_color[3] < 1.0,
+        emission: look.emission,
+        blending: look.blending,
+        textures: textures.collect(),
+        ..SurfaceMaterial::default()
+    }
+}
+
+/// Surface of a body whose vertices have colours, but which has no materials: white, so that they are seen as they are.
+pub(crate) fn painted_surface(outside: &SurfaceMaterial) -> SurfaceMaterial {
+    SurfaceMaterial {
+        name: "vertex colours".into(),
+        base_color: [1.0; 4],
+        roughness: outside.roughness,
         ..SurfaceMaterial::default()
     }
 }

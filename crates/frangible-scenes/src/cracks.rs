@@ -32,6 +32,9 @@ pub(crate) fn with_cracks(
     state: &BodyState,
     surfaces: &BodySurfaces,
 ) -> Option<RecordedMesh> {
+    if surfaces.light.is_some() {
+        return None;
+    }
     let centre = asset.mass.centre.as_vec3();
     let mut triangles = Vec::new();
     for (corners, count) in state.new_faces(&asset.fracture) {
@@ -160,6 +163,12 @@ impl Part {
         if mesh.uvs.len() == mesh.positions.len() {
             mesh.uvs.extend([[0.0; 2]; 3]);
         }
+        for uvs in &mut mesh.more_uvs {
+            uvs.extend([[0.0; 2]; 3]);
+        }
+        if !mesh.colors.is_empty() {
+            mesh.colors.extend([[1.0; 4]; 3]);
+        }
         mesh.positions.extend(corners);
         mesh.normals.extend([normal; 3]);
         self.part.indices.extend([first, first + 1, first + 2]);
@@ -206,6 +215,9 @@ mod tests {
             crack_line: 3,
             clear: true,
             authored: Vec::new(),
+            srgb_colors: false,
+            light: None,
+            names: [String::new(), String::new()],
         };
         add_cracks(&mut mesh, &[[a, b, c], [a, c, d]], &surfaces);
         assert_eq!(mesh.parts.len(), 2);

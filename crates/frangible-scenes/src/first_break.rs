@@ -7,7 +7,7 @@ use frangible::{Body, Contact, FractureConfig, Fragment};
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_rapier::{BreakCause, BreakEvent};
 use frangible_recording::{
-    MeshPart, Pose, RecordedMesh, RecordedNode, Recording, SurfaceMaterial, View,
+    Image, MeshPart, Pose, RecordedMesh, RecordedNode, Recording, SurfaceMaterial, View,
 };
 
 use crate::bake::BakedBody;
@@ -35,6 +35,7 @@ pub struct FirstBreak {
     pub(crate) rotation: Quat,
     look: BodySurfaces,
     surfaces: Vec<SurfaceMaterial>,
+    images: Vec<Image>,
     look_from: Vec3,
 }
 
@@ -109,6 +110,7 @@ fn found(
     time: f64,
 ) -> FirstBreak {
     let placed = &stage.bodies[number];
+    let recording = stage.recorder.into_parts().0;
     FirstBreak {
         name: placed.spec.name.clone(),
         body,
@@ -117,7 +119,8 @@ fn found(
         time,
         rotation: Quat::from_array(event.pose.rotation.to_array()),
         look: placed.surfaces.clone(),
-        surfaces: stage.recorder.into_parts().0.surfaces,
+        surfaces: recording.surfaces,
+        images: recording.images,
         look_from: scene.look_from,
     }
 }
@@ -171,6 +174,7 @@ impl FirstBreak {
             frame_rate: FRAME_RATE,
             frame_count: 1,
             surfaces: self.surfaces.clone(),
+            images: self.images.clone(),
             ..Recording::default()
         };
         if pieces.is_empty() {
@@ -179,7 +183,7 @@ impl FirstBreak {
         }
         for (i, fragment) in pieces.iter().enumerate() {
             let name = format!("{} piece {}", self.name, i + 1);
-            let mesh = piece(name, fragment, &self.look);
+            let mesh = piece(&name, fragment, &self.look).mesh;
             self.put(
                 &mut still,
                 mesh,

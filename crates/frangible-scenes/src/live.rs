@@ -14,7 +14,7 @@ use frangible::glam::{Quat, Vec3};
 use frangible::{Body, Breakable, Fracture, Fragment};
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_rapier::{BreakEvent, BreakableWorld};
-use frangible_recording::{Floor, Pose, RecordedMesh, SurfaceMaterial};
+use frangible_recording::{Floor, Image, Pose, RecordedMesh, SurfaceMaterial};
 use frangible_sound::Sounding;
 
 use crate::bake::BakedBody;
@@ -89,6 +89,7 @@ pub struct LiveScene {
     name: String,
     world: BreakableWorld,
     surfaces: Vec<SurfaceMaterial>,
+    images: Vec<Image>,
     things: Vec<Arc<Thing>>,
     /// Whole bodies as they are before the next step, with the cracks they have.
     whole: BTreeMap<(u32, u32), Body>,
@@ -157,6 +158,7 @@ impl LiveScene {
             name: scene.name.clone(),
             world,
             surfaces: recording.surfaces,
+            images: recording.images,
             things,
             whole: BTreeMap::new(),
             floor: scene.floor.as_ref().map(|_| Floor::default()),
@@ -235,7 +237,7 @@ impl LiveScene {
             .enumerate()
         {
             let name = format!("{} piece {}", of.name, i + 1);
-            let mesh = piece(name.clone(), fragment, surfaces);
+            let mesh = piece(&name, fragment, surfaces).mesh;
             self.things.push(Arc::new(Thing {
                 name,
                 kind: ThingKind::Piece {
@@ -288,7 +290,7 @@ impl LiveScene {
             return Vec::new();
         };
         let shape = |fragment: &Fragment| {
-            let mesh = piece(String::new(), fragment, surfaces);
+            let mesh = piece("", fragment, surfaces).mesh;
             (fragment.mass.centre.as_vec3(), mesh)
         };
         fracture.fragments.iter().map(shape).collect()

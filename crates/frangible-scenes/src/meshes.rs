@@ -1,13 +1,17 @@
 //! Surfaces of bodies, pieces and balls as recorded meshes: one normal per vertex, a part per material.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
 
 use frangible::glam::Vec3;
+use frangible::internals::asset::RenderSurface;
 use frangible::internals::{RenderMesh, box_projection};
-use frangible::{Asset, Fragment};
+use frangible::{Asset, Fragment, TriMesh};
 use frangible_recording::{MeshPart, RecordedMesh};
 
 use crate::cracks::add_cracks;
+use crate::light::lightened;
+use crate::output::{Simplified, TOLERANCE};
 
 /// Indices of the surfaces (materials) of the outside and of the crack faces.
 #[derive(Clone, Debug)]
@@ -23,6 +27,23 @@ pub(crate) struct BodySurfaces {
     pub(crate) clear: bool,
     /// Surfaces of the materials that came with a mesh file.
     pub(crate) authored: Vec<usize>,
+    /// True if the colours of vertices are sRGB.
+    pub(crate) srgb_colors: bool,
+    /// Largest distance of simplified crack faces from the computed ones, m; none: they are drawn as computed.
+    pub(crate) light: Option<f32>,
+    /// Name of the body, and the name of its mesh in the file that it came from, which may be empty.
+    pub(crate) names: [String; 2],
+}
+
+impl BodySurfaces {
+    /// Name of the mesh of a node: the author's in place of the body's.
+    fn mesh_name(&self, node: &str) -> String {
+        let [body, authored] = &self.names;
+        match node.strip_prefix(&body[..]) {
+            Some(rest) if !authored.is_empty() => format!("{authored}{rest}"),
+            _ => node.to_owned(),
+        }
+    }
 }
 
 /// Joins corners that agree in vertex, normal and texture coordinates.
@@ -61,6 +82,21 @@ impl Builder {
         })
     }
 
+    /// Gives new vertices the other attributes of those of a surface.
+    fn paint(&mut self, sources: [u32; 3], vertices: &[u32; 3], surface: &RenderSurface) {
+        let mesh = &mut self.mesh;
+        for (source, &vertex) in sources.map(|v| v as usize).into_iter().zip(vertices) {
+            if !surface.colors.is_empty() && mesh.colors.len() == vertex as usize {
+                mesh.colors.push(surface.colors[source]);
+            }
+            for (uvs, all) in mesh.more_uvs.iter_mut().zip(&surface.more_uvs) {
+                if uvs.len() == vertex as usize {
+                    uvs.push(all[source]);
+                }
+            }
+        }
+    }
+
     /// The mesh with its triangles sorted by surface.
     fn finish(mut self, name: String, parts: Vec<(usize, Vec<u32>)>) -> RecordedMesh {
         self.mesh.name = name;
@@ -74,57 +110,90 @@ impl Builder {
 }
 
 /// The whole body: only its outside, as its author drew it if it has one.
-pub(crate) fn whole(name: &str, asset: &Asset, surfaces: &BodySurfaces) -> RecordedMesh {
+pub(crate) fn whole(node: &str, asset: &Asset, surfaces: &BodySurfaces) -> RecordedMesh {
+    let name = surfaces.mesh_name(node);
     let mut builder = Builder::default();
     if let Some(render) = &asset.render {
+        builder.mesh.more_uvs = vec![Vec::new(); render.more_uvs.len()];
         let mut triangles = Vec::with_capacity(render.triangles.len());
         for (triangle, normals) in render.triangles.iter().zip(render.corner_normals()) {
             let corners = triangle.map(|v| render.positions[v as usize]);
             let uvs = (!render.uvs.is_empty()).then(|| triangle.map(|v| render.uvs[v as usize]));
             triangles.push(builder.triangle(*triangle, corners, normals, uvs));
+            builder.paint(*triangle, &triangles[triangles.len() - 1], render);
         }
+        linear(&mut builder.mesh.colors, surfaces);
         let parts = by_material(&triangles, &render.material_of_triangle, surfaces);
-        return builder.finish(name.into(), parts);
+        return builder.finish(name, parts);
     }
     let mut indices = Vec::new();
     for (triangle, &normals) in asset.surface.triangles.iter().zip(&asset.surface.normals) {
         let corners = triangle.map(|v| asset.fracture.positions[v as usize]);
         indices.extend(builder.triangle(*triangle, corners, normals, None));
     }
-    builder.finish(name.into(), vec![(surfaces.outer, indices)])
+    builder.finish(name, vec![(surfaces.outer, indices)])
 }
 
-/// A piece: outside, crack faces, and cracks that entered it without parting it.
-pub(crate) fn piece(name: String, fragment: &Fragment, surfaces: &BodySurfaces) -> RecordedMesh {
-    let mesh = &fragment.mesh;
+/// A piece as it is drawn.
+pub(crate) struct DrawnPiece {
+    pub(crate) mesh: RecordedMesh,
+    /// What simplifying it has done.
+    pub(crate) simplified: Simplified,
+}
+
+/// A piece: outside, crack faces, and cracks that entered it without parting it; these are left out of a light drawing.
+pub(crate) fn piece(node: &str, fragment: &Fragment, surfaces: &BodySurfaces) -> DrawnPiece {
+    let origin = fragment.mass.centre.as_vec3();
+    let mut drawn = match &fragment.render {
+        Some(render) => Cow::Borrowed(render),
+        None => Cow::Owned(undrawn(&fragment.mesh, origin)),
+    };
+    let mut simplified = Simplified::default();
+    if let Some(tolerance) = surfaces.light {
+        let (light, error) = lightened(&drawn, origin, tolerance);
+        simplified = Simplified {
+            full: drawn.triangles.len(),
+            light: light.triangles.len(),
+            error,
+            share: error / tolerance * TOLERANCE,
+        };
+        drawn = Cow::Owned(light);
+    }
     let mut builder = Builder {
-        origin: fragment.mass.centre.as_vec3(),
+        mesh: vertices(&drawn),
         ..Builder::default()
     };
-    let mut parts = Vec::new();
-    let mut inner = Vec::new();
-    if let Some(render) = &fragment.render {
-        let (outside, faces) = render.triangles.split_at(render.outer_triangles);
-        parts = by_material(outside, &render.material_of_triangle, surfaces);
-        inner.extend(faces.iter().flatten());
-        builder.mesh = vertices(render);
-    } else {
-        let mut outer = Vec::new();
-        for (i, (triangle, &normals)) in mesh.triangles.iter().zip(&mesh.normals).enumerate() {
-            let corners = triangle.map(|v| mesh.positions[v as usize]);
-            let corners = builder.triangle(*triangle, corners, normals, None);
-            if i < mesh.outer_triangles {
-                outer.extend(corners);
-            } else {
-                inner.extend(corners);
-            }
-        }
-        parts.push((surfaces.outer, outer));
+    linear(&mut builder.mesh.colors, surfaces);
+    let (outside, faces) = drawn.triangles.split_at(drawn.outer_triangles);
+    let mut parts = by_material(outside, &drawn.material_of_triangle, surfaces);
+    parts.push((surfaces.inner, faces.as_flattened().to_vec()));
+    let mut mesh = builder.finish(surfaces.mesh_name(node), parts);
+    if surfaces.light.is_none() {
+        add_cracks(&mut mesh, &fragment.mesh.cracks, surfaces);
     }
-    parts.push((surfaces.inner, inner));
-    let mut recorded = builder.finish(name, parts);
-    add_cracks(&mut recorded, &mesh.cracks, surfaces);
-    recorded
+    DrawnPiece { mesh, simplified }
+}
+
+/// A piece of a body that no one drew. `origin`: its centre of mass in the body frame, m.
+fn undrawn(mesh: &TriMesh, origin: Vec3) -> RenderMesh {
+    let mut builder = Builder {
+        origin,
+        ..Builder::default()
+    };
+    let corners = mesh.triangles.iter().zip(&mesh.normals);
+    let triangles = corners.map(|(triangle, &normals)| {
+        let corners = triangle.map(|v| mesh.positions[v as usize]);
+        builder.triangle(*triangle, corners, normals, None)
+    });
+    let triangles = triangles.collect();
+    RenderMesh {
+        positions: builder.mesh.positions,
+        normals: builder.mesh.normals,
+        uvs: builder.mesh.uvs,
+        triangles,
+        outer_triangles: mesh.outer_triangles,
+        ..RenderMesh::default()
+    }
 }
 
 fn vertices(render: &RenderMesh) -> RecordedMesh {
@@ -132,7 +201,22 @@ fn vertices(render: &RenderMesh) -> RecordedMesh {
         positions: render.positions.clone(),
         normals: render.normals.clone(),
         uvs: render.uvs.clone(),
+        more_uvs: render.more_uvs.clone(),
+        colors: render.colors.clone(),
         ..RecordedMesh::default()
+    }
+}
+
+/// Makes the colours of vertices linear: by the inverse of sRGB's transfer function, IEC 61966-2-1.
+fn linear(colors: &mut [[f32; 4]], surfaces: &BodySurfaces) {
+    if !surfaces.srgb_colors {
+        return;
+    }
+    for part in colors.iter_mut().flat_map(|color| &mut color[..3]) {
+        *part = match *part {
+            dark if dark <= 0.04045 => dark / 12.92,
+            bright => libm::powf((bright + 0.055) / 1.055, 2.4),
+        };
     }
 }
 

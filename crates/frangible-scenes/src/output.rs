@@ -15,6 +15,45 @@ pub struct Output {
     pub json: FileWish,
     /// Number of seeds on the contact sheet, default 9.
     pub seeds: usize,
+    /// Detail of the drawn pieces.
+    pub drawing: Drawing,
+}
+
+/// Detail with which pieces are drawn, in files and pictures.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Drawing {
+    /// Crack faces as computed, with the cracks that end inside a body.
+    #[default]
+    Full,
+    /// Crack faces with fewer triangles, at most [`TOLERANCE`] of the body's longest side away from the computed ones. Cracks that end inside
+    /// a body are left out.
+    Light,
+}
+
+/// Largest distance of simplified crack faces from the computed ones, of the longest side of the body.
+pub const TOLERANCE: f32 = 0.005;
+
+/// Effect of [`Drawing::Light`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Simplified {
+    /// Triangles of all pieces before.
+    pub full: usize,
+    /// Triangles after.
+    pub light: usize,
+    /// Largest distance between the two, m, measured at the corners and middles of triangles.
+    pub error: f32,
+    /// The same, of the longest side of the body.
+    pub share: f32,
+}
+
+impl Simplified {
+    /// Adds another piece.
+    pub(crate) fn add(&mut self, other: &Self) {
+        self.full += other.full;
+        self.light += other.light;
+        self.error = self.error.max(other.error);
+        self.share = self.share.max(other.share);
+    }
 }
 
 /// Choice of writing a file, with its name.
@@ -37,6 +76,7 @@ impl Default for Output {
             contact_sheet: FileWish::No,
             json: FileWish::No,
             seeds: 9,
+            drawing: Drawing::Full,
         }
     }
 }

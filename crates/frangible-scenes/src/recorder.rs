@@ -10,13 +10,14 @@ use frangible_rapier::BreakEvent;
 use frangible_rapier::BreakableWorld;
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_recording::{
-    Floor, Moments, Pose, RecordedMesh, RecordedNode, Recording, SurfaceMaterial,
+    Floor, Image, Moments, Pose, RecordedMesh, RecordedNode, Recording, SurfaceMaterial,
 };
 use frangible_sound::{Sounding, recorded_blow};
 
 use crate::cameras::cameras;
 use crate::cracks::with_cracks;
-use crate::meshes::{BodySurfaces, piece};
+use crate::meshes::{BodySurfaces, DrawnPiece, piece};
+use crate::output::Simplified;
 use crate::touching::WorldTouching;
 
 /// Frames per second of a recording.
@@ -56,6 +57,8 @@ pub(crate) struct Recorder {
     break_frame: Option<usize>,
     /// Frame in which cracks first ran that parted nothing.
     crack_frame: Option<usize>,
+    /// What a light drawing has done so far.
+    pub(crate) simplified: Simplified,
 }
 
 impl Recorder {
@@ -74,6 +77,7 @@ impl Recorder {
             touching: WorldTouching::default(),
             break_frame: None,
             crack_frame: None,
+            simplified: Simplified::default(),
         }
     }
 
@@ -95,6 +99,16 @@ impl Recorder {
             known.push(look);
             known.len() - 1
         })
+    }
+
+    /// Number of an image in the recording; equal ones are kept once.
+    pub(crate) fn image(&mut self, image: &Image) -> u32 {
+        let known = &mut self.recording.images;
+        let number = known.iter().position(|k| k == image).unwrap_or_else(|| {
+            known.push(image.clone());
+            known.len() - 1
+        });
+        number as u32
     }
 
     /// A thing to follow from the next frame on.
@@ -150,7 +164,8 @@ impl Recorder {
             .enumerate()
         {
             let name = piece_name(name, generation, i);
-            let mesh = piece(name.clone(), fragment, surfaces);
+            let DrawnPiece { mesh, simplified } = piece(&name, fragment, surfaces);
+            self.simplified.add(&simplified);
             let extras = vec![
                 ("mass_kg".into(), fragment.mass.mass),
                 ("volume_m3".into(), fragment.mass.volume),

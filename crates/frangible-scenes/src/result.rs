@@ -6,11 +6,15 @@ use frangible_rapier::BreakCause;
 use frangible_recording::Recording;
 use frangible_sound::Sounding;
 
+use crate::output::Simplified;
+
 /// Result of playing a scene.
 #[derive(Clone, Debug)]
 pub struct Run {
     /// The animation.
     pub recording: Recording,
+    /// What [`Drawing::Light`](crate::Drawing::Light) has done; nothing otherwise.
+    pub simplified: Simplified,
     /// The sound source of each node of the recording.
     pub soundings: Vec<Sounding>,
     /// The breaks, in the order of time.

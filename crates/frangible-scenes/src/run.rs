@@ -12,6 +12,7 @@ use web_time::Instant;
 
 use crate::bake::BakedBody;
 use crate::error::SceneError;
+use crate::output::Simplified;
 use crate::recorder::{FRAME_RATE, piece_name};
 use crate::result::{BlowRecord, BreakRecord, HeldRecord, Run};
 use crate::scene::Scene;
@@ -55,6 +56,7 @@ pub fn play(
     }
     let mut run = Run {
         recording: Recording::default(),
+        simplified: Simplified::default(),
         soundings: Vec::new(),
         breaks: Vec::new(),
         held: Vec::new(),
@@ -168,6 +170,7 @@ pub fn play(
     run.held.sort_by_key(|held| held.body);
     run.at_rest = at_rest(&stage.world, &stage.projectiles);
     let floor = scene.floor.as_ref().map(|_| Floor::default());
+    run.simplified = stage.recorder.simplified;
     (run.recording, run.soundings) = stage.recorder.finish(scene.look_from, floor, run.at_rest);
     let reports = run.breaks.iter().map(|b| &b.report);
     let fractured: f64 = reports.map(|r| r.timings.total()).sum();

@@ -12,13 +12,14 @@ use frangible_rapier::{BreakableWorld, ColliderDetail, SurfaceProperties, WorldC
 use frangible_sound::Sounding;
 
 use crate::adhesive::glue;
-use crate::appearance::{appearance, authored_surface, projectile_surface};
+use crate::appearance::{appearance, authored_surface, painted_surface, projectile_surface};
 use crate::bake::BakedBody;
 use crate::body::{BodySpec, Place};
 use crate::bonds::bond;
 use crate::error::SceneError;
 use crate::launch::{Launched, Target, launch, vector};
 use crate::meshes::{BodySurfaces, whole};
+use crate::output::{Drawing, TOLERANCE};
 use crate::overlap::check_overlaps;
 use crate::projectile::Projectile;
 use crate::recorder::{Recorder, Role};
@@ -116,7 +117,16 @@ pub(crate) fn set_up_kinds<'a>(
     for (i, (spec, kind)) in scene.bodies.iter().zip(kinds).enumerate() {
         let seed = seed_of(scene.seed, i);
         let floor = scene.floor.is_some();
-        bodies.push(put(&mut world, &mut recorder, spec, kind, seed, floor)?);
+        let drawing = scene.output.drawing;
+        bodies.push(put(
+            &mut world,
+            &mut recorder,
+            spec,
+            kind,
+            seed,
+            floor,
+            drawing,
+        )?);
     }
     let assets: Vec<Arc<Asset>> = kinds.iter().map(|kind| Arc::clone(kind.asset())).collect();
     check_overlaps(&bodies, &assets)?;
@@ -212,6 +222,7 @@ fn put<'a>(
     kind: &Breakable,
     seed: u64,
     floor: bool,
+    drawing: Drawing,
 ) -> Result<Placed<'a>, SceneError> {
     let asset = kind.asset();
     let lowest = lowest_point(asset, spec.rotation);
@@ -235,10 +246,17 @@ fn put<'a>(
     let pose = Pose::from_parts(vector(centre), Rotation::from_xyzw(q.x, q.y, q.z, q.w));
     let sounding = Sounding::Modes(body.clone());
     let handle = world.insert_breakable(body, pose, vector(spec.velocity), vector(spec.spin))?;
-    let look = appearance(&asset.material.name);
+    let mut look = appearance(&asset.material.name);
     let clear = look.outside.transmission > 0.0;
+    if let Some(render) = &asset.render
+        && !render.colors.is_empty()
+    {
+        look.outside = painted_surface(&look.outside);
+    }
     let [outer, inner, crack, crack_line] =
         recorder.surfaces([look.outside, look.crack_face, look.crack, look.crack_line]);
+    let images = asset.render.iter().flat_map(|render| &render.images);
+    let images: Vec<u32> = images.map(|image| recorder.image(image)).collect();
     let authored = asset.render.iter().flat_map(|render| &render.materials);
     let surfaces = BodySurfaces {
         outer,
@@ -247,8 +265,14 @@ fn put<'a>(
         crack_line,
         clear,
         authored: authored
-            .map(|look| recorder.surface(authored_surface(look)))
+            .map(|look| recorder.surface(authored_surface(look, &images)))
             .collect(),
+        srgb_colors: asset.render.as_ref().is_some_and(|r| r.srgb_colors),
+        light: (drawing == Drawing::Light).then(|| TOLERANCE * longest_side(asset)),
+        names: [
+            spec.name.clone(),
+            asset.render.as_ref().map_or("", |r| &r.name).to_owned(),
+        ],
     };
     let extras = vec![
         ("mass_kg".into(), asset.mass.mass),
@@ -328,6 +352,14 @@ fn farthest_point(asset: &Asset) -> f32 {
         .iter()
         .map(|p| p.length())
         .fold(0.0, f32::max)
+}
+
+/// Longest side of the body's box, m.
+fn longest_side(asset: &Asset) -> f32 {
+    let nothing = [Vec3::INFINITY, Vec3::NEG_INFINITY];
+    let places = asset.fracture.positions.iter();
+    let [low, high] = places.fold(nothing, |[low, high], &p| [low.min(p), high.max(p)]);
+    (high - low).max_element()
 }
 
 /// Height of the body's lowest point below its centre of mass (negative), m.

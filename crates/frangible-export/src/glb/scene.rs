@@ -8,7 +8,8 @@ use json::extensions::scene::khr_lights_punctual::{KhrLightsPunctual, Light, Typ
 use json::scene::UnitQuaternion;
 use json::validation::Checked::Valid;
 
-use super::mesh::push_mesh;
+use super::GlbOptions;
+use super::mesh::{Pushed, push_mesh};
 use crate::ExportError;
 use frangible_recording::{Floor, MeshPart, RecordedMesh, RecordedNode, Recording, View};
 
@@ -18,23 +19,31 @@ pub(super) fn push_scene(
     root: &mut json::Root,
     binary: &mut Vec<u8>,
     recording: &Recording,
+    options: &GlbOptions,
 ) -> Result<(), ExportError> {
     let meshes: Vec<_> = recording
         .meshes
         .iter()
-        .map(|mesh| push_mesh(root, binary, mesh))
-        .collect();
+        .map(|mesh| {
+            let surfaces = &recording.surfaces;
+            push_mesh(root, binary, mesh, surfaces, options.quantized)
+        })
+        .collect::<Result<_, _>>()?;
     let mut nodes = Vec::with_capacity(recording.nodes.len() + 2);
     for node in &recording.nodes {
         nodes.push(root.push(recorded_node(node, meshes[node.mesh])?));
     }
+    place_quantized(root, recording, &meshes);
     let (center, radius) = recording.bounding_sphere();
     if let Some(floor) = &recording.floor {
         let mesh = push_mesh(
             root,
             binary,
             &floor_mesh(floor, recording.surfaces.len(), radius),
-        );
+            &[],
+            false,
+        )?;
+        let mesh = mesh.map(|(mesh, _)| mesh);
         nodes.push(root.push(json::Node {
             mesh,
             name: Some("floor".into()),
@@ -54,10 +63,26 @@ pub(super) fn push_scene(
     Ok(())
 }
 
-fn recorded_node(
-    node: &RecordedNode,
-    mesh: Option<json::Index<json::Mesh>>,
-) -> Result<json::Node, ExportError> {
+/// Adds a node below each that shows a quantised mesh, with the mesh and its place: the scale of the node itself says when it is seen.
+fn place_quantized(root: &mut json::Root, recording: &Recording, meshes: &[Option<Pushed>]) {
+    for (i, node) in recording.nodes.iter().enumerate() {
+        let Some((mesh, Some(place))) = meshes[node.mesh] else {
+            continue;
+        };
+        let child = root.push(json::Node {
+            mesh: Some(mesh),
+            name: Some(node.name.clone()),
+            translation: Some(place.center.to_array()),
+            scale: Some([place.scale; 3]),
+            ..Default::default()
+        });
+        root.nodes[i].children = Some(vec![child]);
+    }
+}
+
+fn recorded_node(node: &RecordedNode, mesh: Option<Pushed>) -> Result<json::Node, ExportError> {
+    // A quantised mesh has a node of its own below.
+    let mesh = mesh.and_then(|(mesh, place)| place.is_none().then_some(mesh));
     // Viewers that play no animation show a node where it first appears, and
     // only if it is there in the first frame.
     let first = node.visible.start.min(node.poses.len() - 1);
@@ -94,11 +119,11 @@ fn floor_mesh(floor: &Floor, surface: usize, radius: f32) -> RecordedMesh {
             corner(1.0, -1.0),
         ],
         normals: vec![Vec3::Y; 4],
-        uvs: Vec::new(),
         parts: vec![MeshPart {
             surface,
             indices: vec![0, 1, 2, 0, 2, 3],
         }],
+        ..RecordedMesh::default()
     }
 }
 
@@ -173,6 +198,7 @@ fn push_lights(root: &mut json::Root, view: &View) -> [json::Index<json::Node>; 
             )),
             extensions: Some(json::extensions::scene::Node {
                 khr_lights_punctual: Some(KhrLightsPunctual { light }),
+                ..Default::default()
             }),
             ..Default::default()
         })

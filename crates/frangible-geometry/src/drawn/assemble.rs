@@ -27,7 +27,10 @@ impl RenderIndex {
         local: &mut [u32],
     ) -> Builder<'a> {
         let mut mesh = Builder {
-            mesh: RenderMesh::default(),
+            mesh: RenderMesh {
+                more_uvs: vec![Vec::new(); surface.more_uvs.len()],
+                ..RenderMesh::default()
+            },
             surface,
             index: self,
             centre,
@@ -44,11 +47,12 @@ impl RenderIndex {
                 let known = &mut local[*corner as usize];
                 if *known == u32::MAX {
                     let Vertex {
+                        source,
                         position,
                         normal,
                         uv,
                     } = *self.vertices.get(*corner);
-                    *known = mesh.vertex(position.as_dvec3(), normal, uv);
+                    *known = mesh.vertex(position.as_dvec3(), normal, uv, &[(source, 1.0)]);
                 }
                 *corner = *known;
             }
@@ -110,6 +114,12 @@ impl Builder<'_> {
         mesh.positions.reserve(vertices);
         mesh.normals.reserve(vertices);
         mesh.uvs.reserve(vertices);
+        for uvs in &mut mesh.more_uvs {
+            uvs.reserve(vertices);
+        }
+        if !self.surface.colors.is_empty() {
+            mesh.colors.reserve(vertices);
+        }
         mesh.triangles.reserve(triangles);
     }
 
@@ -124,24 +134,22 @@ impl Builder<'_> {
     fn corner(&mut self, t: u32, p: DVec2, place: Option<DVec3>) -> u32 {
         let weights = [1.0 - p.x - p.y, p.x, p.y];
         let surface = self.surface;
-        let triangle = surface.triangles[t as usize].map(|v| v as usize);
-        let mean = |x: [DVec3; 3]| x[0] * weights[0] + x[1] * weights[1] + x[2] * weights[2];
-        let own = || mean(triangle.map(|v| surface.positions[v].as_dvec3()));
+        let sources = surface.triangles[t as usize];
+        let of = [0, 1, 2].map(|i| (sources[i], weights[i]));
+        let triangle = sources.map(|v| v as usize);
+        let blend = |x: [DVec3; 3]| x[0] * weights[0] + x[1] * weights[1] + x[2] * weights[2];
+        let own = || blend(triangle.map(|v| surface.positions[v].as_dvec3()));
         let position = place.unwrap_or_else(own);
         let flat = self.index.flat[t as usize];
         let normals = (self.index.vertices.of(t)).map(|v| self.index.vertices.get(v).normal);
-        let smooth = mean(normals.map(Vec3::as_dvec3));
+        let smooth = blend(normals.map(Vec3::as_dvec3));
         let normal = smooth.as_vec3().normalize_or(flat);
         let uv = if surface.uvs.is_empty() {
             box_projection(position.as_vec3(), flat)
         } else {
-            let uv = triangle.map(|v| surface.uvs[v]);
-            [0, 1].map(|c| {
-                let parts = (0..3).map(|i| f64::from(uv[i][c]) * weights[i]);
-                parts.sum::<f64>() as f32
-            })
+            mean(&surface.uvs, &of)
         };
-        self.vertex(position, normal, uv)
+        self.vertex(position, normal, uv, &of)
     }
 
     fn triangle(&mut self, t: u32, corners: [u32; 3]) {
@@ -156,15 +164,38 @@ impl Builder<'_> {
         let flat = (b - a).cross(c - a).as_vec3().normalize_or(face[0].1);
         let mut corners = [0; 3];
         for (corner, &(position, normal)) in corners.iter_mut().zip(face) {
-            *corner = self.vertex(position, normal, box_projection(position.as_vec3(), flat));
+            let uv = box_projection(position.as_vec3(), flat);
+            *corner = self.vertex(position, normal, uv, &[]);
         }
         self.mesh.triangles.push(corners);
     }
 
-    fn vertex(&mut self, position: DVec3, normal: Vec3, uv: [f32; 2]) -> u32 {
-        self.mesh.positions.push((position - self.centre).as_vec3());
-        self.mesh.normals.push(normal);
-        self.mesh.uvs.push(uv);
-        (self.mesh.positions.len() - 1) as u32
+    /// `of`: vertices of the surface whose weighted mean gives the other attributes; none: white, and zero.
+    fn vertex(&mut self, position: DVec3, normal: Vec3, uv: [f32; 2], of: &[(u32, f64)]) -> u32 {
+        let (mesh, surface) = (&mut self.mesh, self.surface);
+        mesh.positions.push((position - self.centre).as_vec3());
+        mesh.normals.push(normal);
+        mesh.uvs.push(uv);
+        for (uvs, all) in mesh.more_uvs.iter_mut().zip(&surface.more_uvs) {
+            uvs.push(mean(all, of));
+        }
+        if !surface.colors.is_empty() {
+            let color = match of {
+                [] => [1.0; 4],
+                _ => mean(&surface.colors, of).map(|x: f32| x.clamp(0.0, 1.0)),
+            };
+            mesh.colors.push(color);
+        }
+        (mesh.positions.len() - 1) as u32
     }
+}
+
+/// Weighted sum of rows.
+fn mean<const N: usize>(rows: &[[f32; N]], of: &[(u32, f64)]) -> [f32; N] {
+    std::array::from_fn(|k| {
+        let parts = of
+            .iter()
+            .map(|&(v, weight)| f64::from(rows[v as usize][k]) * weight);
+        parts.sum::<f64>() as f32
+    })
 }

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use glam::Vec3;
 
+use super::{Image, RenderMaterial};
 use crate::smooth_normals;
 
 /// The authored surface, used for rendering and clipping only, never for physics.
@@ -11,21 +12,29 @@ use crate::smooth_normals;
 /// It need not be closed or touch the fracture mesh; only its indices and values are checked.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RenderSurface {
+    /// Name that the author gave it; may be empty.
+    pub name: String,
     /// Vertex positions, m, body frame.
     pub positions: Vec<Vec3>,
     /// Vertex normals; may be empty.
     pub normals: Vec<Vec3>,
     /// Texture coordinates of the vertices; may be empty.
     pub uvs: Vec<[f32; 2]>,
+    /// Further sets of texture coordinates, each of all vertices.
+    pub more_uvs: Vec<Vec<[f32; 2]>>,
     /// Vertex colours (red, green, blue and opacity, each 0..=1); may be empty. They can define local weakness, see the module
     /// `weakness` of `frangible-bake`.
     pub colors: Vec<[f32; 4]>,
+    /// True if the colours are sRGB, false if they are linear.
+    pub srgb_colors: bool,
     /// Vertices of each triangle, counter-clockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
     /// Index of each triangle into [`RenderSurface::materials`]; may be empty.
     pub material_of_triangle: Vec<u32>,
     /// Materials of the triangles.
     pub materials: Vec<RenderMaterial>,
+    /// Images of the textures of the materials.
+    pub images: Vec<Image>,
 }
 
 impl RenderSurface {
@@ -67,17 +76,4 @@ impl RenderSurface {
             .map(|(v, p)| *first.entry(place(p)).or_insert(v))
             .collect()
     }
-}
-
-/// Material of triangles of a [`RenderSurface`], in the metallic-roughness model of glTF 2.0.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RenderMaterial {
-    /// Name of the material; may be empty.
-    pub name: String,
-    /// Linear red, green, blue and opacity, each 0..=1.
-    pub base_color: [f32; 4],
-    /// 0 (dielectric) to 1 (metal).
-    pub metallic: f32,
-    /// 0 (mirror) to 1 (matt).
-    pub roughness: f32,
 }

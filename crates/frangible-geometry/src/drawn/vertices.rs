@@ -12,6 +12,8 @@ const COMPARED: usize = 8;
 /// A corner as it is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Vertex {
+    /// Its vertex of the surface, which has its other attributes.
+    pub(super) source: u32,
     /// m, body frame.
     pub(super) position: Vec3,
     pub(super) normal: Vec3,
@@ -42,6 +44,7 @@ impl Vertices {
                 None => box_projection(position, flat),
             };
             let vertex = Vertex {
+                source: v as u32,
                 position,
                 normal,
                 uv,

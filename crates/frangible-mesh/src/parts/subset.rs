@@ -60,7 +60,9 @@ fn subset(mesh: &InputMesh, triangles: &[(u32, bool)]) -> InputMesh {
         positions: of(&mesh.positions, &vertices),
         normals,
         uvs: of(&mesh.uvs, &vertices),
+        more_uvs: mesh.more_uvs.iter().map(|uvs| of(uvs, &vertices)).collect(),
         colors: of(&mesh.colors, &vertices),
+        srgb_colors: mesh.srgb_colors,
         triangles: triangles
             .iter()
             .map(|&(t, turned)| {
@@ -76,8 +78,10 @@ fn subset(mesh: &InputMesh, triangles: &[(u32, bool)]) -> InputMesh {
                 .collect(),
         },
         materials: mesh.materials.clone(),
+        images: mesh.images.clone(),
         groups: groups(mesh, triangles),
         skipped_faces: mesh.skipped_faces,
+        left_out: mesh.left_out.clone(),
     }
 }
 

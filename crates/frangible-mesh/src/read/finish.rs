@@ -55,7 +55,15 @@ fn complete_normals(mesh: &mut InputMesh) {
 }
 
 fn complete_uvs(mesh: &mut InputMesh) {
-    for uv in &mut mesh.uvs {
+    let count = mesh.positions.len();
+    for uvs in &mut mesh.more_uvs {
+        uvs.resize(count, Vec2::ZERO);
+    }
+    for uv in mesh
+        .uvs
+        .iter_mut()
+        .chain(mesh.more_uvs.iter_mut().flatten())
+    {
         if !uv.is_finite() {
             *uv = Vec2::ZERO;
         }
@@ -64,6 +72,7 @@ fn complete_uvs(mesh: &mut InputMesh) {
 
 /// A colour that cannot be used costs paint, not the shape: it is logged.
 fn complete_colors(mesh: &mut InputMesh) {
+    mesh.srgb_colors &= !mesh.colors.is_empty();
     let (mut not_numbers, mut outside) = (0, 0);
     for color in &mut mesh.colors {
         if !color.iter().all(|x| x.is_finite()) {
@@ -88,6 +97,7 @@ fn complete_materials(mesh: &mut InputMesh) {
     if mesh.material_of_triangle.iter().all(|&m| m == NO_MATERIAL) {
         mesh.material_of_triangle.clear();
         mesh.materials.clear();
+        mesh.images.clear();
         return;
     }
     let default = mesh.materials.len() as u32;

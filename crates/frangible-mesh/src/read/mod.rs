@@ -8,6 +8,7 @@ mod error;
 mod finish;
 mod format;
 mod gltf;
+mod images;
 mod nearest;
 mod obj;
 mod ply;
@@ -93,7 +94,7 @@ pub fn parse_mesh(
     let mesh = match format {
         MeshFormat::Obj => obj::parse(bytes, folder),
         MeshFormat::Stl => stl::parse(bytes),
-        MeshFormat::Ply => ply::parse(bytes),
+        MeshFormat::Ply => ply::parse(bytes, folder),
         MeshFormat::Gltf => gltf::parse(bytes, folder),
     }?;
     finish::finish(mesh)

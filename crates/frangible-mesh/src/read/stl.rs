@@ -93,6 +93,10 @@ fn parse_binary(bytes: &[u8]) -> Result<InputMesh, ReadError> {
         ..InputMesh::default()
     };
     for facet in facets {
+        // Some programs keep a colour there, each in its own way.
+        if facet[48..] != [0, 0] {
+            mesh.leave_out("attributes of facets");
+        }
         for corner in facet[12..48].chunks_exact(12) {
             let at = |k: usize| {
                 f64::from(f32::from_le_bytes([

@@ -7,8 +7,13 @@ use frangible_mesh::glam::{DVec3, Vec2, Vec3};
 use frangible_mesh::{InputMesh, MeshFormat, ReadError, parse_mesh, read_mesh, repair};
 
 mod formats;
+mod looks;
+mod numbers;
+mod pose;
 mod refused;
 mod variants;
+
+use numbers::Numbers;
 
 /// A tetrahedron of volume 1/6, wound outwards.
 const CORNERS: [[f32; 3]; 4] = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [0., 0., 1.]];
@@ -193,9 +198,13 @@ fn gltf(nodes: &str, buffer: &str) -> String {
 }
 
 fn glb(json: &str) -> Vec<u8> {
+    glb_of(json, buffer())
+}
+
+fn glb_of(json: &str, mut data: Vec<u8>) -> Vec<u8> {
     let mut json = json.as_bytes().to_vec();
     json.resize(json.len().next_multiple_of(4), b' ');
-    let data = buffer();
+    data.resize(data.len().next_multiple_of(4), 0);
     let mut bytes = b"glTF".to_vec();
     for word in [2, 28 + json.len() + data.len(), json.len()] {
         bytes.extend((word as u32).to_le_bytes());

@@ -19,6 +19,7 @@ impl LiveScene {
             frame_rate: FRAME_RATE,
             frame_count: 1,
             surfaces: self.surfaces.clone(),
+            images: self.images.clone(),
             floor: self.floor,
             camera,
             ..Recording::default()

@@ -2,7 +2,7 @@
 
 use frangible_bake::{ImportOptions, import_parts};
 use frangible_mesh::glam::DVec3;
-use frangible_mesh::{PartChoice, RepairReport, TetFormat};
+use frangible_mesh::{InputMesh, PartChoice, RepairReport, TetFormat};
 
 use super::{BodySource, FileKind, Opened, fit, tets};
 use crate::error::SceneError;
@@ -80,6 +80,7 @@ pub(crate) fn open_parts(
                     .iter()
                     .map(|note| format!("{}: {note}", path.display())),
             );
+            notes.extend(left_out(&mesh, *wall).map(|what| format!("{}: {what}", path.display())));
         }
         let mended = mended.to_string();
         if !mended.is_empty() {
@@ -104,6 +105,20 @@ pub(crate) fn open_parts(
         });
     }
     Ok((list, found))
+}
+
+/// One note on what of a file is not kept.
+fn left_out(mesh: &InputMesh, wall: Option<f64>) -> Option<String> {
+    let mut list: Vec<&str> = mesh.left_out.iter().map(String::as_str).collect();
+    // A wall is drawn along its own faces, as the author's surface lies in its middle.
+    let drawn = [
+        (!mesh.colors.is_empty(), "vertex colours"),
+        (!mesh.uvs.is_empty(), "texture coordinates"),
+        (!mesh.materials.is_empty(), "materials"),
+    ];
+    let drawn = drawn.into_iter().filter(|(there, _)| *there);
+    list.extend(drawn.filter(|_| wall.is_some()).map(|(_, what)| what));
+    (!list.is_empty()).then(|| format!("not kept: {}", list.join("; ")))
 }
 
 fn single(opened: Opened) -> OpenedPart {

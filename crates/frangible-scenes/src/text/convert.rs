@@ -11,13 +11,13 @@ use frangible_mesh::did_you_mean;
 use super::body::body;
 use super::either::SwitchOrName;
 use super::schema::{
-    DurationTable, FractureTable, KindName, MethodName, ModelName, NearFieldName, OutputTable,
-    PathTable, PiecesTable, ProjectileTable, SceneTable, TimingTable,
+    DrawingName, DurationTable, FractureTable, KindName, MethodName, ModelName, NearFieldName,
+    OutputTable, PathTable, PiecesTable, ProjectileTable, SceneTable, TimingTable,
 };
 use crate::body::BodySpec;
 use crate::check::Fault;
 use crate::error::SceneError;
-use crate::output::{FileWish, Output};
+use crate::output::{Drawing, FileWish, Output};
 use crate::projectile::{Projectile, ProjectileKind};
 use crate::scene::{Adhesive, PieceSpec, Scene};
 use frangible_bake::pieces::Method;
@@ -185,6 +185,10 @@ fn output(table: OutputTable) -> Output {
     set(&mut output.contact_sheet, table.contact_sheet.map(wish));
     set(&mut output.json, table.json.map(wish));
     set(&mut output.seeds, table.seeds);
+    output.drawing = match table.drawing {
+        Some(DrawingName::Light) => Drawing::Light,
+        Some(DrawingName::Full) | None => Drawing::Full,
+    };
     output
 }
 

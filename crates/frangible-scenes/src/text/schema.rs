@@ -318,4 +318,13 @@ pub(super) struct OutputTable {
     pub(super) contact_sheet: Option<SwitchOrName>,
     pub(super) json: Option<SwitchOrName>,
     pub(super) seeds: Option<usize>,
+    pub(super) drawing: Option<DrawingName>,
+}
+
+/// `drawing`.
+#[derive(Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum DrawingName {
+    Full,
+    Light,
 }

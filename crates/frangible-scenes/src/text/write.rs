@@ -11,7 +11,7 @@ use super::support::support_text;
 use super::values::{edit_text, list, material_text, number, quoted, shape_text, vector};
 use super::weakness::{paint_text, patch_text};
 use crate::body::{BodySpec, Place};
-use crate::output::{FileWish, Output};
+use crate::output::{Drawing, FileWish, Output};
 use crate::projectile::{Projectile, ProjectileKind};
 use crate::scene::{Adhesive, PieceSpec, Scene};
 use crate::source::BodySource;
@@ -324,4 +324,7 @@ fn write_output(t: &mut Text, output: &Output) {
         }
     }
     t.line("seeds", output.seeds);
+    if output.drawing == Drawing::Light {
+        t.line("drawing", quoted("light"));
+    }
 }

@@ -124,6 +124,7 @@ pub(crate) fn intricate() -> Scene {
     scene.output.picture = FileWish::No;
     scene.output.contact_sheet = FileWish::Yes;
     scene.output.seeds = 4;
+    scene.output.drawing = frangible_scenes::Drawing::Light;
     scene
 }
 

@@ -16,7 +16,10 @@ use crate::material::Material;
 use crate::mesh::{MassProperties, TetMesh};
 use crate::modal::ModalBasis;
 
-pub use crate::mesh::{RenderMaterial, RenderSurface};
+pub use crate::mesh::{
+    Blending, Image, ImageKind, Placement, RenderMaterial, RenderSurface, Texture, TextureSlot,
+    Wrap,
+};
 pub use bounds::StressBounds;
 pub(crate) use embedding::carriers;
 #[doc(hidden)]

@@ -62,6 +62,7 @@ fn cube(n: u32, grown: f32) -> RenderSurface {
             base_color: [1.0; 4],
             metallic: 0.0,
             roughness: 0.5,
+            ..RenderMaterial::default()
         });
     }
     surface

@@ -6,7 +6,7 @@ use super::*;
 fn arrays_that_do_not_fit_are_refused() {
     let nan = f32::NAN;
     type Change = fn(&mut Asset);
-    let cases: [(Change, &str); 46] = [
+    let cases: [(Change, &str); 50] = [
         (
             |a| a.supported[1] = 8,
             "supported node 1 lies beyond the 8 nodes",
@@ -147,6 +147,22 @@ fn arrays_that_do_not_fit_are_refused() {
         (
             |a| drawn(a).materials[1].metallic = 1.5,
             "render material 1",
+        ),
+        (
+            |a| drawn(a).materials[0].emission[2] = f32::NAN,
+            "emission or the opacity that render material 0",
+        ),
+        (
+            |a| drawn(a).materials[0].textures[0].image = 1,
+            "texture of render material 0",
+        ),
+        (
+            |a| drawn(a).materials[0].textures[0].uv_set = 2,
+            "texture of render material 0",
+        ),
+        (
+            |a| drawn(a).more_uvs[0][1][0] = f32::NAN,
+            "further texture coordinates of render vertex 1",
         ),
     ];
     fn drawn(asset: &mut Asset) -> &mut RenderSurface {

@@ -2,7 +2,8 @@
 
 use frangible::glam::Vec3;
 use frangible::internals::asset::{
-    AnalysisMesh, ConvexCell, EmbeddedPoint, Embedding, OuterSurface, RenderMaterial, RenderSurface,
+    AnalysisMesh, Blending, ConvexCell, EmbeddedPoint, Embedding, Image, ImageKind, OuterSurface,
+    Placement, RenderMaterial, RenderSurface, Texture, TextureSlot, Wrap,
 };
 use frangible::internals::modal::ModalBasis;
 use frangible::internals::stress::StressBounds;
@@ -152,14 +153,40 @@ pub(crate) fn drawn_surface() -> RenderSurface {
         base_color: [0.1, 0.2, 0.3, 1.0],
         metallic: 0.0,
         roughness,
+        ..RenderMaterial::default()
     };
+    let mut shining = material("Glasur – blau", 0.25);
+    shining.emission = [0.5, 2.5, 0.0];
+    shining.double_sided = true;
+    shining.blending = Blending::Mask(0.25);
+    shining.textures = vec![Texture {
+        slot: TextureSlot::Normal,
+        image: 0,
+        uv_set: 1,
+        wrap: [Wrap::Clamp, Wrap::Mirror],
+        is_pixelated: true,
+        strength: 0.5,
+        placement: Placement {
+            offset: [0.1, 0.2],
+            rotation: 0.3,
+            scale: [-1.0, 2.0],
+        },
+    }];
     RenderSurface {
+        name: "Vase".into(),
         positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z],
         normals: vec![Vec3::Z; 4],
         colors: vec![[1.0, 0.0, 0.5, 1.0], [0.0; 4], [1.0; 4], [0.25; 4]],
+        srgb_colors: true,
         uvs: vec![[0.0, -0.0], [1.0, 0.0], [0.0, 1.0], [1.5, -1.5]],
         triangles: vec![[0, 1, 2], [0, 3, 1]],
         material_of_triangle: vec![1, 0],
-        materials: vec![material("Glasur – blau", 0.25), material("", 1.0)],
+        materials: vec![shining, material("", 1.0)],
+        more_uvs: vec![vec![[0.5, -1.0]; 4]],
+        images: vec![Image {
+            name: "Höhe.png".into(),
+            kind: ImageKind::Png,
+            bytes: b"\x89PNG\r\n\x1a\n\0\xff".as_slice().into(),
+        }],
     }
 }

@@ -76,6 +76,15 @@ impl<'a> Rows<'a> {
     }
 }
 
+/// Number of rows of an accessor.
+pub(super) fn row_count(root: &Root, index: Index<Accessor>) -> Result<usize, ReadError> {
+    let missing =
+        || ReadError::malformed(format!("accessor {}", index.value()), "it does not exist");
+    let count = root.get(index).ok_or_else(missing)?.count.0;
+    check_vertices(count)?;
+    Ok(count as usize)
+}
+
 /// All rows of an accessor of `N` numbers each.
 pub(super) fn read<const N: usize>(
     root: &Root,
@@ -89,7 +98,8 @@ pub(super) fn read<const N: usize>(
     else {
         return Err(bad("its type is unknown"));
     };
-    let is_matrix = matches!(shape, Type::Mat2 | Type::Mat3 | Type::Mat4);
+    // Columns of smaller ones are padded.
+    let is_matrix = matches!(shape, Type::Mat2 | Type::Mat3);
     if is_matrix || shape.multiplicity() != N {
         return Err(bad(&format!("its elements must have {N} components")));
     }

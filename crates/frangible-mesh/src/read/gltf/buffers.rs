@@ -1,13 +1,14 @@
 //! The bytes that a glTF refers to.
 
 use std::borrow::Cow;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use gltf_json::buffer::{Buffer, View};
 use gltf_json::{Index, Root};
 
+use crate::read::images::is_inside;
 use crate::read::{ReadError, is_address, read_file};
 
 /// Contents of all buffers, in their order.
@@ -69,14 +70,23 @@ fn content<'a>(
             .map(Cow::Borrowed)
             .ok_or_else(|| bad("it has neither a uri nor a binary chunk"));
     };
+    referenced(&format!("buffer {i}"), uri, folder).map(Cow::Owned)
+}
+
+/// The bytes of a data URI or of a file in the folder; `place` names them in errors.
+pub(super) fn referenced(
+    place: &str,
+    uri: &str,
+    folder: Option<&Path>,
+) -> Result<Vec<u8>, ReadError> {
+    let bad = |problem: &str| ReadError::malformed(place, problem);
     if let Some(data) = uri.strip_prefix("data:") {
         let (_, code) = data
             .split_once(";base64,")
             .ok_or_else(|| bad("its data uri is not base64"))?;
-        let bytes = STANDARD
+        return STANDARD
             .decode(code)
-            .map_err(|error| bad(&format!("its base64 is damaged: {error}")))?;
-        return Ok(Cow::Owned(bytes));
+            .map_err(|error| bad(&format!("its base64 is damaged: {error}")));
     }
     if is_address(uri) {
         return Err(bad(
@@ -87,11 +97,10 @@ fn content<'a>(
         bad("it is a separate file, which is not available to a glTF read from memory; use .glb")
     })?;
     let path = PathBuf::from(percent_decoded(uri));
-    let is_inside = |part: Component| matches!(part, Component::Normal(_) | Component::CurDir);
-    if !path.components().all(is_inside) {
+    if !is_inside(&path) {
         return Err(bad("it is outside the folder of the glTF"));
     }
-    read_file(&folder.join(path)).map(Cow::Owned)
+    read_file(&folder.join(path))
 }
 
 fn percent_decoded(uri: &str) -> String {

@@ -1,28 +1,29 @@
-//! glTF 2.0, as JSON with buffers or as GLB. Skins and morph targets are left in their rest pose.
+//! glTF 2.0, as JSON with buffers or as GLB, in its rest pose.
 
 mod accessor;
 mod buffers;
+mod deform;
+mod left_out;
+mod material;
 mod primitive;
 mod scene;
 
 use std::path::Path;
 
-use gltf_json::material::Material;
 use gltf_json::{Root, Value};
 
 use self::buffers::Buffers;
-use self::primitive::Meshes;
+use self::primitive::{Meshes, Placed};
 use self::scene::Instance;
 use super::ReadError;
 use super::text::shown;
-use crate::{InputGroup, InputMaterial, InputMesh};
+use crate::{InputGroup, InputMesh};
 
 /// Extensions that hide the geometry from a reader that does not know them. Others change only how it looks.
-const UNREADABLE: [&str; 4] = [
+const UNREADABLE: [&str; 3] = [
     "KHR_draco_mesh_compression",
     "EXT_meshopt_compression",
     "KHR_meshopt_compression",
-    "EXT_mesh_gpu_instancing",
 ];
 
 pub(crate) fn parse(bytes: &[u8], folder: Option<&Path>) -> Result<InputMesh, ReadError> {
@@ -52,17 +53,37 @@ pub(crate) fn parse(bytes: &[u8], folder: Option<&Path>) -> Result<InputMesh, Re
     let buffers = Buffers::read(&root, blob, folder)?;
     let mut meshes = Meshes::new(&root, &buffers);
     let mut groups = Vec::new();
+    let instances = scene::instances(&root, &buffers)?;
+    let worlds = match instances.iter().any(|instance| instance.skin.is_some()) {
+        true => scene::worlds(&root)?,
+        false => Vec::new(),
+    };
     for Instance {
         mesh,
         transform,
+        skin,
         node,
-    } in scene::instances(&root)?
+    } in instances
     {
         let first = meshes.mesh.triangles.len() as u32;
-        meshes.add(mesh, transform)?;
+        let source = root.get(mesh);
+        let joints = skin.map(|skin| deform::joints(&root, &buffers, skin, &worlds));
+        let joints = joints.transpose()?;
+        let own = node.and_then(|node| node.weights.as_deref());
+        let placed = Placed {
+            transform,
+            weights: own
+                .or(source.and_then(|mesh| mesh.weights.as_deref()))
+                .unwrap_or_default(),
+            joints: joints.as_deref(),
+        };
+        meshes.add(mesh, placed)?;
         let triangles = first..meshes.mesh.triangles.len() as u32;
-        let name = root.get(mesh).and_then(|m| m.name.as_deref());
-        groups.extend([node, name].into_iter().flatten().map(|name| InputGroup {
+        let names = [
+            node.and_then(|node| node.name.as_deref()),
+            source.and_then(|mesh| mesh.name.as_deref()),
+        ];
+        groups.extend(names.into_iter().flatten().map(|name| InputGroup {
             name: name.into(),
             triangles: triangles.clone(),
         }));
@@ -73,7 +94,8 @@ pub(crate) fn parse(bytes: &[u8], folder: Option<&Path>) -> Result<InputMesh, Re
     }
     let mut mesh = meshes.mesh;
     mesh.groups = groups;
-    mesh.materials = root.materials.iter().map(material).collect();
+    material::read_materials(&root, &buffers, folder, &mut mesh);
+    left_out::take_down(&root, &mut mesh);
     Ok(mesh)
 }
 
@@ -143,21 +165,4 @@ fn split_glb(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), ReadError> {
         None => None,
     };
     Ok((json, blob))
-}
-
-fn material(material: &Material) -> InputMaterial {
-    let pbr = &material.pbr_metallic_roughness;
-    let share = |v: f32| {
-        if v.is_finite() {
-            v.clamp(0.0, 1.0)
-        } else {
-            1.0
-        }
-    };
-    InputMaterial {
-        name: material.name.clone().unwrap_or_default(),
-        base_color: pbr.base_color_factor.0.map(share),
-        metallic: share(pbr.metallic_factor.0),
-        roughness: share(pbr.roughness_factor.0),
-    }
 }

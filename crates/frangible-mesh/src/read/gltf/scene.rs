@@ -1,40 +1,87 @@
 //! Meshes that a scene shows, and their transforms.
 
-use glam::{DMat4, DQuat, DVec3};
+use glam::{DMat4, DQuat, DVec3, DVec4};
 use gltf_json::scene::Node;
-use gltf_json::{Index, Mesh, Root};
+use gltf_json::{Index, Mesh, Root, Skin};
 
-use crate::read::ReadError;
+use super::accessor::{read, row_count};
+use super::buffers::Buffers;
+use crate::read::{ReadError, check_vertices};
+
+/// Extension that draws a mesh many times.
+pub(super) const INSTANCING: &str = "EXT_mesh_gpu_instancing";
 
 /// A mesh that is shown.
 pub(super) struct Instance<'a> {
     pub(super) mesh: Index<Mesh>,
-    /// Transform into the world.
+    /// Transform into the world. That of the node is ignored if the mesh has a skin, as the format says.
     pub(super) transform: DMat4,
-    /// Name of the node that shows it.
-    pub(super) node: Option<&'a str>,
+    pub(super) skin: Option<Index<Skin>>,
+    /// Node that shows it.
+    pub(super) node: Option<&'a Node>,
 }
 
 /// Every mesh of the default scene with its transform into the world. Without a scene, all nodes that are no child of
 /// another; without nodes, each mesh once.
-pub(super) fn instances(root: &Root) -> Result<Vec<Instance<'_>>, ReadError> {
+pub(super) fn instances<'a>(
+    root: &'a Root,
+    buffers: &Buffers,
+) -> Result<Vec<Instance<'a>>, ReadError> {
     if root.nodes.is_empty() {
         let meshes = 0..root.meshes.len() as u32;
         return Ok(meshes
             .map(|i| Instance {
                 mesh: Index::new(i),
                 transform: DMat4::IDENTITY,
+                skin: None,
                 node: None,
             })
             .collect());
     }
-    let mut open: Vec<(usize, DMat4)> = Vec::new();
-    for node in roots(root) {
-        open.push((node, DMat4::IDENTITY));
-    }
+    let mut instances = Vec::new();
+    walk(root, shown(root), &mut |i, node, world| {
+        let Some(mesh) = node.mesh else {
+            return Ok(());
+        };
+        let transforms = match node.skin {
+            Some(_) => vec![DMat4::IDENTITY],
+            None => copies(root, buffers, i, node)?,
+        };
+        check_vertices((instances.len() + transforms.len()) as u64)?;
+        instances.extend(transforms.into_iter().map(|copy| Instance {
+            mesh,
+            transform: if node.skin.is_some() {
+                copy
+            } else {
+                world * copy
+            },
+            skin: node.skin,
+            node: Some(node),
+        }));
+        Ok(())
+    })?;
+    Ok(instances)
+}
+
+/// Transforms of all nodes into the world, in their order.
+pub(super) fn worlds(root: &Root) -> Result<Vec<DMat4>, ReadError> {
+    let mut worlds = vec![DMat4::IDENTITY; root.nodes.len()];
+    walk(root, tops(root), &mut |i, _, world| {
+        worlds[i] = world;
+        Ok(())
+    })?;
+    Ok(worlds)
+}
+
+/// Visits the nodes below some, in their order, with their transforms into the world.
+fn walk<'a>(
+    root: &'a Root,
+    from: Vec<usize>,
+    visit: &mut dyn FnMut(usize, &'a Node, DMat4) -> Result<(), ReadError>,
+) -> Result<(), ReadError> {
+    let mut open: Vec<(usize, DMat4)> = from.iter().map(|&i| (i, DMat4::IDENTITY)).collect();
     open.reverse();
     let mut seen = vec![false; root.nodes.len()];
-    let mut instances = Vec::new();
     while let Some((i, above)) = open.pop() {
         let bad = |problem: &str| ReadError::malformed(format!("node {i}"), problem);
         let node = root.nodes.get(i).ok_or_else(|| bad("it does not exist"))?;
@@ -44,11 +91,7 @@ pub(super) fn instances(root: &Root) -> Result<Vec<Instance<'_>>, ReadError> {
             ));
         }
         let transform = above * local(node);
-        instances.extend(node.mesh.map(|mesh| Instance {
-            mesh,
-            transform,
-            node: node.name.as_deref(),
-        }));
+        visit(i, node, transform)?;
         let children = node.children.as_deref().unwrap_or_default();
         open.extend(
             children
@@ -57,17 +100,75 @@ pub(super) fn instances(root: &Root) -> Result<Vec<Instance<'_>>, ReadError> {
                 .map(|child| (child.value(), transform)),
         );
     }
-    Ok(instances)
+    Ok(())
 }
 
-fn roots(root: &Root) -> Vec<usize> {
+/// Transforms of the copies of a node's mesh in its frame: one, unless it is drawn many times.
+fn copies(root: &Root, buffers: &Buffers, i: usize, node: &Node) -> Result<Vec<DMat4>, ReadError> {
+    let extension = node
+        .extensions
+        .as_ref()
+        .and_then(|all| all.others.get(INSTANCING));
+    let Some(extension) = extension else {
+        return Ok(vec![DMat4::IDENTITY]);
+    };
+    let bad = |problem: &str| ReadError::malformed(format!("node {i}, {INSTANCING}"), problem);
+    let attribute = |name: &str| {
+        let value = extension.get("attributes")?.get(name)?;
+        let number = value.as_u64().and_then(|n| u32::try_from(n).ok());
+        Some(
+            number
+                .map(Index::new)
+                .ok_or_else(|| bad("an accessor is not a number")),
+        )
+    };
+    let [translations, rotations, scales] =
+        ["TRANSLATION", "ROTATION", "SCALE"].map(|name| attribute(name).transpose());
+    let (translations, rotations, scales) = (translations?, rotations?, scales?);
+    let given = [translations, rotations, scales];
+    let mut counts = given.into_iter().flatten().map(|at| row_count(root, at));
+    let count = counts.next().unwrap_or(Ok(1))?;
+    for other in counts {
+        if other? != count {
+            return Err(bad("its attributes differ in length"));
+        }
+    }
+    let translations = translations
+        .map(|at| read::<3>(root, buffers, at))
+        .transpose()?;
+    let rotations = rotations
+        .map(|at| read::<4>(root, buffers, at))
+        .transpose()?;
+    let scales = scales.map(|at| read::<3>(root, buffers, at)).transpose()?;
+    let vector = |list: &Option<Vec<[f64; 3]>>, k: usize, other| {
+        list.as_ref().map_or(other, |list| DVec3::from(list[k]))
+    };
+    let copy = |k: usize| {
+        DMat4::from_scale_rotation_translation(
+            vector(&scales, k, DVec3::ONE),
+            rotations
+                .as_ref()
+                .map_or(DQuat::IDENTITY, |list| turn(list[k])),
+            vector(&translations, k, DVec3::ZERO),
+        )
+    };
+    Ok((0..count).map(copy).collect())
+}
+
+/// Nodes from which the default scene begins.
+fn shown(root: &Root) -> Vec<usize> {
     let scene = match root.scene {
         Some(scene) => root.get(scene),
         None => root.scenes.first(),
     };
-    if let Some(scene) = scene {
-        return scene.nodes.iter().map(|node| node.value()).collect();
+    match scene {
+        Some(scene) => scene.nodes.iter().map(|node| node.value()).collect(),
+        None => tops(root),
     }
+}
+
+/// Nodes that are no child of another.
+fn tops(root: &Root) -> Vec<usize> {
     let mut is_child = vec![false; root.nodes.len()];
     for child in root
         .nodes
@@ -86,14 +187,17 @@ fn local(node: &Node) -> DMat4 {
         return DMat4::from_cols_array(&matrix.map(f64::from));
     }
     let vector = |v: [f32; 3]| DVec3::from(v.map(f64::from));
-    let scale = node.scale.map_or(DVec3::ONE, vector);
-    let rotation = node.rotation.map_or(DQuat::IDENTITY, |q| {
-        let q = glam::DVec4::from(q.0.map(f64::from));
-        q.try_normalize().map_or(DQuat::IDENTITY, DQuat::from_vec4)
-    });
     DMat4::from_scale_rotation_translation(
-        scale,
-        rotation,
+        node.scale.map_or(DVec3::ONE, vector),
+        node.rotation
+            .map_or(DQuat::IDENTITY, |q| turn(q.0.map(f64::from))),
         node.translation.map_or(DVec3::ZERO, vector),
     )
+}
+
+/// Rotation of a quaternion that may not have unit length.
+fn turn(q: [f64; 4]) -> DQuat {
+    DVec4::from(q)
+        .try_normalize()
+        .map_or(DQuat::IDENTITY, DQuat::from_vec4)
 }

@@ -1,6 +1,7 @@
 //! Wavefront OBJ: polygons with textures and normals. Curves, lines and points are passed over.
 
 mod corners;
+mod maps;
 mod mtl;
 
 use std::path::Path;
@@ -40,6 +41,7 @@ pub(crate) fn parse(bytes: &[u8], folder: Option<&Path>) -> Result<InputMesh, Re
     let mut material = NO_MATERIAL;
     let mut groups = Vec::new();
     let (mut object, mut group) = (Runs::default(), Runs::default());
+    let mut left_out = ["", ""];
     for (line, text) in Lines::new(bytes) {
         let mut words = words(&text);
         // Some programs write capitals.
@@ -68,6 +70,8 @@ pub(crate) fn parse(bytes: &[u8], folder: Option<&Path>) -> Result<InputMesh, Re
                 group.change(names, obj.triangles as u32, &mut groups);
             }
             Some(b"mtllib") => materials.read_library(rest_of(&text, b"mtllib"), folder),
+            Some(b"l" | b"p") => left_out[0] = "points and lines",
+            Some(b"curv" | b"curv2" | b"surf") => left_out[1] = "curves and curved surfaces",
             _ => {}
         }
         check_vertices(
@@ -81,8 +85,12 @@ pub(crate) fn parse(bytes: &[u8], folder: Option<&Path>) -> Result<InputMesh, Re
         names.change([], obj.triangles as u32, &mut groups);
     }
     let mut mesh = obj.assemble()?;
-    mesh.materials = materials.list;
     mesh.groups = groups;
+    mesh.srgb_colors = true;
+    materials.give(&mut mesh);
+    for what in left_out.into_iter().filter(|what| !what.is_empty()) {
+        mesh.leave_out(what);
+    }
     Ok(mesh)
 }
 

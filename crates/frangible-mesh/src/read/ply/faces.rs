@@ -104,6 +104,16 @@ fn restart(kind: Kind, vertices: u64) -> Option<i64> {
     kind.all_bits().filter(|&all| all as u64 >= vertices)
 }
 
+/// Returns true for the lists of vertices of an element: those of the usual names, or else its only list of whole numbers.
+pub(super) fn is_corner_list(element: &Element, property: &Property) -> bool {
+    let is_named = |p: &Property| p.count.is_some() && LISTS.contains(&&p.name[..]);
+    let is_list = |p: &Property| p.count.is_some() && p.value.is_whole();
+    if element.properties.iter().any(is_named) {
+        return is_named(property);
+    }
+    is_list(property) && element.properties.iter().filter(|p| is_list(p)).count() == 1
+}
+
 fn place(element: &Element, row: u64) -> String {
     format!("{} {}", String::from_utf8_lossy(&element.name), row + 1)
 }
@@ -117,13 +127,9 @@ fn read_lists(
     if element.count == 0 {
         return Ok(());
     }
-    let is_named = |p: &Property| p.count.is_some() && LISTS.contains(&&p.name[..]);
-    // A list of another name is theirs where there is no other of whole numbers.
-    let is_list = |p: &Property| p.count.is_some() && p.value.is_whole();
-    let lists = element.properties.iter().filter(|p| is_list(p)).count();
-    let has_named = element.properties.iter().any(is_named);
-    let is_face = |p: &Property| if has_named { is_named(p) } else { is_list(p) };
-    if !has_named && lists != 1 {
+    let properties = element.properties.iter();
+    let lists: Vec<bool> = properties.map(|p| is_corner_list(element, p)).collect();
+    if !lists.contains(&true) {
         let name = String::from_utf8_lossy(&element.name);
         let problem = format!(
             "{name}: there is no list property vertex_indices; give the list of vertex indices that name"
@@ -131,9 +137,9 @@ fn read_lists(
         return Err(ReadError::malformed("the header", problem));
     }
     for row in 0..element.count {
-        for property in &element.properties {
+        for (property, is_list) in element.properties.iter().zip(&lists) {
             let place = || place(element, row);
-            let Some(count) = property.count.filter(|_| is_face(property)) else {
+            let Some(count) = property.count.filter(|_| *is_list) else {
                 values.skip(property, place)?;
                 continue;
             };

@@ -61,6 +61,8 @@ const REMARKS: [&[u8]; 4] = [b"comment", b"obj_info", b"#", b"//"];
 pub(super) struct Header {
     pub(super) encoding: Encoding,
     pub(super) elements: Vec<Element>,
+    /// Names of image files, from remarks “TextureFile NAME”.
+    pub(super) textures: Vec<String>,
 }
 
 impl Header {
@@ -75,6 +77,7 @@ impl Header {
         let mut rest = bytes;
         let mut encoding = None;
         let mut elements: Vec<Element> = Vec::new();
+        let mut textures = Vec::new();
         let first = bytes.iter().position(|&b| b == b'\n' || b == b'\r');
         let separator = match first.map(|end| &bytes[end..]) {
             Some([b'\r', b'\n', ..]) | None => b'\n',
@@ -107,6 +110,7 @@ impl Header {
             match words.as_slice() {
                 [b"end_header"] => break,
                 [] => {}
+                [b"comment", b"texturefile", ..] => textures.push(file_name(text)),
                 [word, ..] if REMARKS.iter().any(|known| word.starts_with(known)) => {}
                 [b"format", name, ..] => encoding = Some(encoding_named(name).ok_or_else(bad)?),
                 [b"element", name, count, ..] => elements.push(Element {
@@ -133,8 +137,23 @@ impl Header {
         }
         let encoding = encoding
             .ok_or_else(|| ReadError::malformed("the header", "it has no line “format …”"))?;
-        Ok((Self { encoding, elements }, rest))
+        let header = Self {
+            encoding,
+            elements,
+            textures,
+        };
+        Ok((header, rest))
     }
+}
+
+/// What stands behind the second word; it may hold spaces.
+fn file_name(line: &[u8]) -> String {
+    let mut rest = line.trim_ascii();
+    for _ in 0..2 {
+        let end = rest.iter().position(u8::is_ascii_whitespace);
+        rest = rest[end.unwrap_or(rest.len())..].trim_ascii_start();
+    }
+    String::from_utf8_lossy(rest).into_owned()
 }
 
 fn whole_number(word: &[u8]) -> Option<u64> {

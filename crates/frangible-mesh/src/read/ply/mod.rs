@@ -4,16 +4,20 @@ mod faces;
 mod header;
 mod values;
 
+use std::path::Path;
+
 use glam::{DVec3, Vec2, Vec3};
 
-use self::faces::Faces;
+use self::faces::{Faces, is_corner_list};
 use self::header::{Element, Header, Kind, Property};
 use self::values::Values;
 use super::finish::WHITE;
+use super::images::read_image;
+use super::text::shown;
 use super::{ReadError, check_vertices};
-use crate::InputMesh;
+use crate::{InputMaterial, InputMesh, Texture, TextureSlot};
 
-pub(crate) fn parse(bytes: &[u8]) -> Result<InputMesh, ReadError> {
+pub(crate) fn parse(bytes: &[u8], folder: Option<&Path>) -> Result<InputMesh, ReadError> {
     let (header, body) = Header::parse(bytes)?;
     let mut values = Values::new(header.encoding, body);
     let mut mesh = InputMesh::default();
@@ -21,15 +25,51 @@ pub(crate) fn parse(bytes: &[u8]) -> Result<InputMesh, ReadError> {
     for element in &header.elements {
         match element.name.as_slice() {
             b"vertex" => read_vertices(element, &mut values, &mut mesh)?,
-            b"face" | b"faces" => faces.read(element, &mut values)?,
+            b"face" | b"faces" => {
+                let properties = element.properties.iter();
+                for property in properties.filter(|p| !is_corner_list(element, p)) {
+                    mesh.leave_out(format!("{} of faces", shown(&property.name)));
+                }
+                faces.read(element, &mut values)?;
+            }
             b"tristrips" | b"tristrip" => {
                 faces.read_strips(element, header.vertices(), &mut values)?;
             }
-            _ => skip(element, &mut values)?,
+            name => {
+                mesh.leave_out(format!("the elements {}", shown(name)));
+                skip(element, &mut values)?;
+            }
         }
     }
+    mesh.srgb_colors = true;
     faces.triangulate(&mut mesh)?;
+    texture(&header.textures, folder, &mut mesh);
     Ok(mesh)
+}
+
+/// The look of a mesh with one image, which scanners name in a remark. Several images go with numbers that are not read.
+fn texture(names: &[String], folder: Option<&Path>, mesh: &mut InputMesh) {
+    let (name, folder) = match (names, folder) {
+        ([name], Some(folder)) if !mesh.uvs.is_empty() => (name, folder),
+        _ => {
+            for name in names {
+                mesh.leave_out(format!("image {name}"));
+            }
+            return;
+        }
+    };
+    match read_image(name, folder) {
+        Ok(image) => {
+            mesh.images = vec![image];
+            mesh.materials = vec![InputMaterial {
+                base_color: WHITE,
+                textures: vec![Texture::of(TextureSlot::BaseColor, 0)],
+                ..InputMaterial::default()
+            }];
+            mesh.material_of_triangle = vec![0; mesh.triangles.len()];
+        }
+        Err(problem) => mesh.leave_out(problem),
+    }
 }
 
 /// Part of the mesh that a vertex property fills.
@@ -74,6 +114,11 @@ fn read_vertices(
 ) -> Result<(), ReadError> {
     check_vertices(element.count.saturating_add(mesh.positions.len() as u64))?;
     let slots: Vec<Slot> = element.properties.iter().map(slot).collect();
+    for (property, slot) in element.properties.iter().zip(&slots) {
+        if matches!(slot, Slot::Nowhere) || property.count.is_some() {
+            mesh.leave_out(format!("{} of vertices", shown(&property.name)));
+        }
+    }
     for k in 0..3 {
         if !slots
             .iter()

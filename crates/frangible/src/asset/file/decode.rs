@@ -5,12 +5,13 @@ use std::sync::Arc;
 use glam::{DMat3, DVec3, Vec3};
 
 use super::AssetFileError;
+use super::drawn;
 use super::reader::Reader;
 use super::sections::{self as s, Section};
 use crate::asset::half::Half;
 use crate::asset::{
-    AnalysisMesh, Asset, ConvexCell, EmbeddedPoint, Embedding, OuterSurface, RenderMaterial,
-    RenderSurface, StressBounds, SurfaceWalls,
+    AnalysisMesh, Asset, ConvexCell, EmbeddedPoint, Embedding, OuterSurface, StressBounds,
+    SurfaceWalls,
 };
 use crate::material::Material;
 use crate::mesh::{MassProperties, TetMesh};
@@ -63,7 +64,7 @@ impl Asset {
             cells: cells(&r)?,
             cell_of_tet: r.rows(s::CELL_OF_TET)?,
             supported: supported(&r)?,
-            render: render(&r)?,
+            render: drawn::decode(&r)?,
             portion: None,
         };
         asset.validate()?;
@@ -231,53 +232,7 @@ fn supported(r: &Reader<'_>) -> Result<Vec<u32>, AssetFileError> {
     Ok(nodes)
 }
 
-/// The drawn surface, where the file has one: all of its sections or none.
-fn render(r: &Reader<'_>) -> Result<Option<RenderSurface>, AssetFileError> {
-    if !s::RENDER.iter().any(|&section| r.has(section)) {
-        return Ok(None);
-    }
-    Ok(Some(RenderSurface {
-        positions: r.rows(s::RENDER_POSITIONS)?,
-        normals: r.rows(s::RENDER_NORMALS)?,
-        uvs: r.rows(s::RENDER_UVS)?,
-        colors: if r.has(s::RENDER_COLORS) {
-            r.rows(s::RENDER_COLORS)?
-        } else {
-            Vec::new()
-        },
-        triangles: r.rows(s::RENDER_TRIANGLES)?,
-        material_of_triangle: r.rows(s::RENDER_MATERIAL_OF_TRIANGLE)?,
-        materials: render_materials(r)?,
-    }))
-}
-
-fn render_materials(r: &Reader<'_>) -> Result<Vec<RenderMaterial>, AssetFileError> {
-    let numbers = r.each::<[f32; 6]>(s::RENDER_MATERIALS)?;
-    let lengths = r.rows::<u32>(s::RENDER_NAME_LENGTHS)?;
-    let mut names = r.text(s::RENDER_NAMES)?;
-    let fail = || {
-        let problem = "does not divide the names among the materials";
-        AssetFileError::section(s::RENDER_NAME_LENGTHS.name, problem)
-    };
-    if lengths.len() != numbers.len() || sum(&lengths) != names.len() as u64 {
-        return Err(fail());
-    }
-    let materials = numbers
-        .zip(&lengths)
-        .map(|([r, g, b, a, metallic, roughness], &length)| {
-            // No cut within a character.
-            let (name, rest) = names.split_at_checked(length as usize).ok_or_else(fail)?;
-            names = rest;
-            Ok(RenderMaterial {
-                name: name.to_owned(),
-                base_color: [r, g, b, a],
-                metallic,
-                roughness,
-            })
-        });
-    materials.collect()
-}
-
-fn sum(sizes: &[u32]) -> u64 {
+/// Of rows that lie one after another.
+pub(super) fn sum(sizes: &[u32]) -> u64 {
     sizes.iter().map(|&n| u64::from(n)).sum()
 }

@@ -1,10 +1,11 @@
 //! Asset to bytes.
 
 use super::SaveOptions;
+use super::drawn;
 use super::sections::{self as s, Section};
 use super::writer::Writer;
 use crate::asset::half::{Half, half_scales};
-use crate::asset::{Asset, EmbeddedPoint, Embedding, RenderSurface};
+use crate::asset::{Asset, EmbeddedPoint, Embedding};
 use crate::material::Material;
 use crate::mesh::MassProperties;
 
@@ -76,7 +77,7 @@ impl Asset {
             w.rows(s::SUPPORTED, &self.supported);
         }
         if let Some(surface) = &self.render {
-            render(&mut w, surface);
+            drawn::encode(&mut w, surface);
         }
         w.finish()
     }
@@ -123,31 +124,5 @@ fn embedded(
     w.each(barycentric, points.iter().map(|p| p.barycentric));
     if !are_unmoved(points) {
         w.each(offsets, points.iter().map(|p| p.offset));
-    }
-}
-
-fn render(w: &mut Writer, surface: &RenderSurface) {
-    w.rows(s::RENDER_POSITIONS, &surface.positions);
-    w.rows(s::RENDER_NORMALS, &surface.normals);
-    w.rows(s::RENDER_UVS, &surface.uvs);
-    w.rows(s::RENDER_TRIANGLES, &surface.triangles);
-    w.rows(
-        s::RENDER_MATERIAL_OF_TRIANGLE,
-        &surface.material_of_triangle,
-    );
-    let materials = surface.materials.iter();
-    let numbers = materials.clone().map(|m| {
-        let [r, g, b, a] = m.base_color;
-        [r, g, b, a, m.metallic, m.roughness]
-    });
-    w.each(s::RENDER_MATERIALS, numbers);
-    w.each(
-        s::RENDER_NAME_LENGTHS,
-        materials.clone().map(|m| m.name.len() as u32),
-    );
-    let names: String = materials.map(|m| m.name.as_str()).collect();
-    w.text(s::RENDER_NAMES, &names);
-    if !surface.colors.is_empty() {
-        w.rows(s::RENDER_COLORS, &surface.colors);
     }
 }

@@ -8,6 +8,7 @@
 
 mod decode;
 mod disk;
+mod drawn;
 mod encode;
 mod error;
 mod foreign;

@@ -63,9 +63,17 @@ sections! {
     RENDER_NAME_LENGTHS = 118, "render material name lengths";
     RENDER_NAMES = 119, "render material names";
     RENDER_COLORS = 120, "render colours";
+    RENDER_MORE_UVS = 121, "further render texture coordinates";
+    RENDER_LOOKS = 122, "render material looks";
+    RENDER_TEXTURES = 123, "render textures";
+    RENDER_IMAGES = 124, "render images";
+    RENDER_IMAGE_NAMES = 125, "render image names";
+    RENDER_IMAGE_BYTES = 126, "render image bytes";
+    RENDER_SRGB_COLORS = 127, "sRGB render colours";
+    RENDER_NAME = 128, "render name";
 }
 
-/// The sections of the drawn surface, which a file has all of or none; colours only where there are any.
+/// The sections of the drawn surface, which a file has all of or none; colours and those after them only where there are any.
 pub(super) const RENDER: [Section; 8] = [
     RENDER_POSITIONS,
     RENDER_NORMALS,
