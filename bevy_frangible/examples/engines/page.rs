@@ -108,7 +108,7 @@ fn conservation(played: &[(Scene, Played)], engine: usize) -> (f64, f64) {
 fn losses(out: &mut String, played: &[(Scene, Played)]) {
     out.push_str(
         "## What the ball loses\n\nThe loss of speed a quarter of a second after the throw, m/s, of all seeds, whether the pane broke or not. *The blow \
-         alone* is\nthat of the same blow without an engine. In the second row of each speed are the differences of the same seeds from it.\n\n\
+         alone* is\nthat of the same blow without an engine. In the second row of each speed are the differences of the same seeds from it. The ball and the\nloose pieces do not collide during this quarter of a second, unless either touches something else: the blow has already counted what they take from it.\nOnce they may collide, an engine's own contacts can change the speed again.\n\n\
          | | the blow alone |",
     );
     for engine in ["Rapier", "Avian"] {

@@ -8,6 +8,9 @@
 //! tension of that face; if it followed the face with the larger tension, it would curl into petals. It is driven by the mean energy through the
 //! wall. It may branch (`branching.rs`), and may cross a crack that opens from the other face of the wall (`passing.rs`).
 //!
+//! *Sections* (`sections.rs`, `section.rs`, `strip.rs`). A crack in a solid that is large against the section it lies in is also driven by the force and
+//! the moment of that section, since the stress ahead of it in the unbroken body no longer says what acts on its front.
+//!
 //! *Release* (`release.rs`). A crack unloads the material beside it. The release at a weak point is evaluated only if a crack is about to start
 //! there with sufficient energy. Released stress stays released, so no evaluation is needed if the stored release already keeps the stress below
 //! the strength. All positions on all nearby cracks are evaluated, eight at a time. In an integrated blow, a separated piece moves independently,
