@@ -256,11 +256,15 @@ impl CrackSystem<'_> {
             let x = mesh.corners(tet as usize);
             (x, x.map(|x| (x - origin).dot(normal)))
         };
+        // A piece has stress in its uncut tetrahedra alone.
+        let portion = self.asset.portion.as_ref();
+        let is_own =
+            |tet: u32| portion.is_none_or(|piece| piece.tets().binary_search(&tet).is_ok());
         let crosses = |s: &[f32]| s.iter().any(|&s| s < 0.0) && s.iter().any(|&s| s >= 0.0);
         let mut seen = BTreeSet::new();
         let mut queue: Vec<u32> = Vec::new();
         for cut in cracks.iter().flat_map(|&id| self.cracks[id].unsettled()) {
-            if crosses(&values(cut.tet).1) && seen.insert(cut.tet) {
+            if is_own(cut.tet) && crosses(&values(cut.tet).1) && seen.insert(cut.tet) {
                 queue.push(cut.tet);
             }
         }
@@ -279,7 +283,11 @@ impl CrackSystem<'_> {
             let (x, s) = values(tet);
             polygons.push((tet, crossing_middle(&x, &s), crossing_area(&x, &s)));
             for (face, &n) in FACES.iter().zip(&mesh.neighbours[tet as usize]) {
-                if n != NO_NEIGHBOUR && crosses(&face.map(|i| s[i])) && is_open(n) && seen.insert(n)
+                if n != NO_NEIGHBOUR
+                    && crosses(&face.map(|i| s[i]))
+                    && is_own(n)
+                    && is_open(n)
+                    && seen.insert(n)
                 {
                     queue.push(n);
                 }
