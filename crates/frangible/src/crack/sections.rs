@@ -86,7 +86,8 @@ impl CrackSystem<'_> {
             return;
         }
         self.cracks[id].unsought = GREW * area;
-        if field.wall(self.cracks[id].start as usize).is_some() {
+        let start = self.cracks[id].start;
+        if !self.is_own(start) || field.wall(start as usize).is_some() {
             return;
         }
         let Some((origin, normal)) = self.mean_plane(&[id], None) else {
@@ -248,6 +249,12 @@ impl CrackSystem<'_> {
         }
     }
 
+    /// Returns true if a tetrahedron has stress: in a piece only its own uncut ones do.
+    fn is_own(&self, tet: u32) -> bool {
+        let portion = self.asset.portion.as_ref();
+        portion.is_none_or(|piece| piece.tets().binary_search(&tet).is_ok())
+    }
+
     /// Tetrahedra that a plane passes, from those of cracks on through neighbours, with the middle and the area of what it cuts of them. Cracks
     /// across it end it.
     fn passed(&self, cracks: &[usize], origin: Vec3, normal: Vec3) -> Vec<(u32, Vec3, f32)> {
@@ -256,15 +263,11 @@ impl CrackSystem<'_> {
             let x = mesh.corners(tet as usize);
             (x, x.map(|x| (x - origin).dot(normal)))
         };
-        // A piece has stress in its uncut tetrahedra alone.
-        let portion = self.asset.portion.as_ref();
-        let is_own =
-            |tet: u32| portion.is_none_or(|piece| piece.tets().binary_search(&tet).is_ok());
         let crosses = |s: &[f32]| s.iter().any(|&s| s < 0.0) && s.iter().any(|&s| s >= 0.0);
         let mut seen = BTreeSet::new();
         let mut queue: Vec<u32> = Vec::new();
         for cut in cracks.iter().flat_map(|&id| self.cracks[id].unsettled()) {
-            if is_own(cut.tet) && crosses(&values(cut.tet).1) && seen.insert(cut.tet) {
+            if self.is_own(cut.tet) && crosses(&values(cut.tet).1) && seen.insert(cut.tet) {
                 queue.push(cut.tet);
             }
         }
@@ -285,7 +288,7 @@ impl CrackSystem<'_> {
             for (face, &n) in FACES.iter().zip(&mesh.neighbours[tet as usize]) {
                 if n != NO_NEIGHBOUR
                     && crosses(&face.map(|i| s[i]))
-                    && is_own(n)
+                    && self.is_own(n)
                     && is_open(n)
                     && seen.insert(n)
                 {
