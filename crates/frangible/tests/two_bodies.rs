@@ -90,13 +90,11 @@ fn any_pair_finds_one_force_from_both_sides() {
                 let from_a = blow(&a, met(&a, here, &b, there, 4.0));
                 let from_b = blow(&b, met(&b, there, &a, here, 4.0));
                 let [ra, rb] = [&from_a, &from_b].map(|blow| blow.reports()[0].clone());
-                // Both are integrated in steps of their own: the error of a step is what is left. The block chatters on the shelf for 8.5 ms, in which
-                // 1.7e-5 gathers (measured); every other pair is within 1e-5.
+                // Both are integrated in steps of their own: the error of a step is what is left.
                 let apart = |a: f64, b: f64| (a / b - 1.0).abs();
                 let name = (&one.asset().name, &other.asset().name);
-                let long = ra.duration > 2e-3;
                 assert!(
-                    apart(ra.impulse, rb.impulse) < if long { 5e-5 } else { 1e-5 },
+                    apart(ra.impulse, rb.impulse) < 1e-5,
                     "{name:?}: {ra:?} {rb:?}"
                 );
                 assert!(

@@ -5,4 +5,3 @@ pub(crate) mod exchange;
 pub(crate) mod motion;
 pub(crate) mod plain;
 pub(crate) mod settle;
-pub(crate) mod through;

@@ -34,9 +34,9 @@
 //! # Limits
 //!
 //! Crushing is modelled as an indentation with a loss of energy: no powder is ejected, and the crushed region keeps its mass and stiffness. Steel
-//! strikers do not indent. A chattering contact is integrated until all its points have separated. If a striker then still approaches the
-//! rigid motion of the body, the blow goes on for four times the contact's expected duration: a wall may swing back against the striker, and a chip may
-//! bounce between the striker and the body behind it. A striker that still approaches then hits the rest of the body at
+//! strikers do not indent. A chattering contact is integrated until all its points have separated; if the body then swings back against a striker
+//! that is still near, there is no second blow. Once pieces move independently, an open contact is integrated for as long again as its expected
+//! duration, since a chip may bounce between the striker and the body behind it. A striker that still approaches then hits the rest of the body at
 //! the same point. Two vibrating bodies have the same contact force whichever of them is computed, as long as they have no other contacts and
 //! neither has broken: the blow on a body does not include other contacts of the striker or softening by the striker's cracks.
 //!
