@@ -315,6 +315,7 @@ fields! {
     Label { at, text }
     SurfaceMaterial {
         name, base_color, metallic, roughness, transmission, ior, double_sided, attenuation_color, attenuation_distance, thin, grain,
+        emission, ends_inside,
     }
 }
 
