@@ -1,4 +1,4 @@
-//! What a mesh file has beside its shape, in the pieces of its body.
+//! Colours, texture coordinates, materials and names of a mesh file, in the pieces of its body.
 
 use std::fs;
 

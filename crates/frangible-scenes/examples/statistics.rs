@@ -25,7 +25,7 @@ use std::time::Instant;
 use frangible::{ImpactReport, Outcome, impact};
 use frangible_scenes::{BodySource, Scene, bake, breakable, first_break, read_scene, scene};
 
-/// Figures of each break that are compared, in the order of the columns.
+/// Figures of each break that are compared, in the order of the columns; a list with others names them in a line that begins with `#`.
 const COLUMNS: [&str; 8] = [
     "pieces",
     "crack area, m²",
@@ -239,25 +239,32 @@ fn rounded(x: f64) -> String {
 }
 
 /// Columns of each scene.
-type Scenes = BTreeMap<String, [Vec<f64>; COLUMNS.len()]>;
+type Scenes = BTreeMap<String, Vec<Vec<f64>>>;
 
-fn read(path: &str) -> Result<Scenes, Box<dyn Error>> {
+/// Reads a list: the names of its columns, and these.
+fn read(path: &str) -> Result<(Vec<String>, Scenes), Box<dyn Error>> {
     let mut scenes = Scenes::new();
+    let mut names: Vec<String> = COLUMNS.map(String::from).to_vec();
     for line in std::fs::read_to_string(path)?.lines() {
+        if let Some(own) = line.strip_prefix('#') {
+            names = own.split(';').map(|name| name.trim().into()).collect();
+            continue;
+        }
         let words: Vec<&str> = line.split_whitespace().collect();
         let [name, _, ref numbers @ ..] = words[..] else {
             continue;
         };
         let columns = scenes.entry(name.into()).or_default();
+        columns.resize(names.len(), Vec::new());
         for (column, number) in columns.iter_mut().zip(numbers) {
             column.push(number.parse()?);
         }
     }
-    Ok(scenes)
+    Ok((names, scenes))
 }
 
 fn compare(before: &str, after: &str) -> Result<(), Box<dyn Error>> {
-    let (before, after) = (read(before)?, read(after)?);
+    let ((names, before), (_, after)) = (read(before)?, read(after)?);
     let (mut pairs, mut differ) = (0, 0);
     println!(
         "| scene | | before | after | standard errors apart | p |\n| --- | --- | ---: | ---: | ---: | ---: |"
@@ -266,7 +273,7 @@ fn compare(before: &str, after: &str) -> Result<(), Box<dyn Error>> {
         let Some(others) = after.get(name) else {
             continue;
         };
-        for ((what, a), b) in COLUMNS.iter().zip(columns).zip(others) {
+        for ((what, a), b) in names.iter().zip(columns).zip(others) {
             let [(mean_a, error_a), (mean_b, error_b)] = [a, b].map(|x| mean(x));
             let apart = (mean_b - mean_a).abs() / error_a.hypot(error_b).max(f64::MIN_POSITIVE);
             let p = kolmogorov_smirnov(a, b);

@@ -137,7 +137,7 @@ pub(crate) fn whole(node: &str, asset: &Asset, surfaces: &BodySurfaces) -> Recor
 /// A piece as it is drawn.
 pub(crate) struct DrawnPiece {
     pub(crate) mesh: RecordedMesh,
-    /// What simplifying it has done.
+    /// Triangles before and after the simplification, and its error.
     pub(crate) simplified: Simplified,
 }
 

@@ -42,7 +42,7 @@ pub struct Simplified {
     pub light: usize,
     /// Largest distance between the two, m, measured at the corners and middles of triangles.
     pub error: f32,
-    /// The same, of the longest side of the body.
+    /// Largest distance as a share of the longest side of the body.
     pub share: f32,
 }
 

@@ -57,7 +57,7 @@ pub(crate) struct Recorder {
     break_frame: Option<usize>,
     /// Frame in which cracks first ran that parted nothing.
     crack_frame: Option<usize>,
-    /// What a light drawing has done so far.
+    /// Triangles and error of the light drawing so far.
     pub(crate) simplified: Simplified,
 }
 

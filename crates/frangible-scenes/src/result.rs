@@ -13,7 +13,7 @@ use crate::output::Simplified;
 pub struct Run {
     /// The animation.
     pub recording: Recording,
-    /// What [`Drawing::Light`](crate::Drawing::Light) has done; nothing otherwise.
+    /// Triangles and error of [`Drawing::Light`](crate::Drawing::Light); zero with the full drawing.
     pub simplified: Simplified,
     /// The sound source of each node of the recording.
     pub soundings: Vec<Sounding>,

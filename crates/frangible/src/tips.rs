@@ -28,8 +28,9 @@ const RESOLVED: f64 = 2.0;
 /// A crack has a section from this area on, in squares of the body's thickness where it starts.
 pub(crate) const LARGE: f64 = 0.1;
 
-/// Largest factor of an edge crack in tension and bending, F_t + 1.5 F_b, that may be met before cracks relax the section: that at 0.8 of the height.
-const SECTION: f64 = 20.0;
+/// Largest factor of the stress intensity of an edge crack in a section whose stress stays below a bound: F_t + 1.5 F_b at the largest share that
+/// counts. Under stresses of at most σ, N ≤ σ A and 6 M / H ≤ 1.5 σ A.
+pub(crate) const SECTION: f64 = 330.0;
 
 /// Data of an existing crack for the growth of its front.
 #[derive(Clone, Copy, Debug)]
@@ -82,7 +83,13 @@ pub struct CrackFront {
 }
 
 /// The old cracks of a body, in the order of its state.
-pub(crate) fn tips(asset: &Asset, thickness: &[f32], state: &BodyState) -> Vec<Tip> {
+///
+/// `room`: thickness of the body at a tetrahedron where cracks may have sections, m.
+pub(crate) fn tips(
+    asset: &Asset,
+    state: &BodyState,
+    room: impl Fn(u32) -> Option<f32>,
+) -> Vec<Tip> {
     if state.cracks.is_empty() {
         return Vec::new();
     }
@@ -98,8 +105,9 @@ pub(crate) fn tips(asset: &Asset, thickness: &[f32], state: &BodyState) -> Vec<T
             tip.area += f64::from(crossing_area(&x, &cut.values));
             tip.front += uncut.ahead(cut).map(|(_, length)| length).sum::<f64>();
         }
-        let room = f64::from(thickness[crack.start as usize]);
-        if tip.area > LARGE * room * room {
+        if let Some(room) = room(crack.start).map(f64::from)
+            && tip.area > LARGE * room * room
+        {
             tip.section = SECTION;
         }
         tip

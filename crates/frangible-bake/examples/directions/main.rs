@@ -1,7 +1,6 @@
 //! Directions of cracks in a pane, and the bias that the mesh gives them.
 //!
 //!     cargo run --release -p frangible-bake --example directions -- hit SEEDS SPEED [OPTION=VALUE…]
-//!     cargo run --release -p frangible-bake --example directions -- meshes SEEDS SPEED [OPTION=VALUE…]
 //!     cargo run --release -p frangible-bake --example directions -- single [OPTION=VALUE…]
 //!
 //! `hit`: a square pane of glass is hit in its middle by a steel ball, seed after seed. It prints the directions of all crack area in twelve
@@ -12,12 +11,10 @@
 //! `single`: one crack starts in the middle of the pane under a tension or a bending that is the same everywhere, at 0, 15, … 90° to the side
 //! of the pane: how far its path turns from where it should run, and how fast it runs.
 //!
-//! `meshes`: the same blows on panes of several meshes, side by side. It prints χ² of each, and the probabilities by Kolmogorov and Smirnov's
-//! test that the pieces, the crack area and the directions of its breaks and those on the first mesh come from one distribution.
-//!
-//! Options: `mesh` (seed of the fracture mesh), `tets` (how many, about), `modes`, `speed` (of cracks over the Rayleigh speed), `after` (seeds begin after this one), `spot` (the
-//! ball hits up to so far from the middle, m), `bend` (1: bending instead of tension), `round` (1: a round plate), `file` (1: a mesh as from a
-//! file, in layers along one of its faces), `turned` (degrees by which the pane of a file is turned against the axes).
+//! Options: `mesh` (seed of the fracture mesh), `tets` (how many, about), `modes`, `speed` (of cracks over the Rayleigh speed), `after` (seeds begin
+//! after this one), `spot` (the ball hits up to so far from the middle, m), `bend` (1: bending instead of tension), `round` (1: a round plate), `file`
+//! (1: a mesh as from a file, in layers along one of its faces), `turned` (degrees by which the pane of a file is turned against the axes), `list` (1:
+//! a line per break instead, which `statistics compare` of `frangible-scenes` compares with those on another mesh).
 
 mod cuts;
 mod pane;
@@ -45,20 +42,8 @@ const PARTS: usize = 12;
 
 /// Parts that the symmetries of the square carry into each other.
 const SQUARE: [&[usize]; 3] = [&[0, 5, 6, 11], &[1, 4, 7, 10], &[2, 3, 8, 9]];
-/// And those of a round plate.
+/// Parts that the symmetries of a round plate carry into each other.
 const CIRCLE: [&[usize]; 1] = [&[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11]];
-
-/// Meshes that are compared: a name and the options that make it.
-const MESHES: [(&str, &[(&str, f64)]); 5] = [
-    ("built-in", &[]),
-    ("built-in, another seed", &[("mesh", 2.0)]),
-    ("built-in, 100 000 tetrahedra", &[("tets", 1e5)]),
-    ("of a file", &[("file", 1.0)]),
-    (
-        "of a file, turned by 30°",
-        &[("file", 1.0), ("turned", 30.0)],
-    ),
-];
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
@@ -69,19 +54,14 @@ fn main() -> Result<()> {
         ["hit", seeds, speed, ref options @ ..] => {
             hit(seeds.parse()?, speed.parse()?, &Options::of(options)?)
         }
-        ["meshes", seeds, speed, ref options @ ..] => {
-            meshes(seeds.parse()?, speed.parse()?, &Options::of(options)?)
-        }
         ["single", ref options @ ..] => single(&Options::of(options)?),
         _ => Err(
-            "directions hit|meshes SEEDS SPEED [OPTION=VALUE…] | directions single [OPTION=VALUE…]"
-                .into(),
+            "directions hit SEEDS SPEED [OPTION=VALUE…] | directions single [OPTION=VALUE…]".into(),
         ),
     }
 }
 
 /// Numbers by name.
-#[derive(Clone)]
 struct Options(BTreeMap<String, f64>);
 
 impl Options {
@@ -161,6 +141,21 @@ fn breaks(asset: &Arc<Asset>, seeds: u64, speed: f64, options: &Options) -> Resu
 fn hit(seeds: u64, speed: f64, options: &Options) -> Result<()> {
     let asset = Arc::new(pane(options)?);
     let breaks = breaks(&asset, seeds, speed, options)?;
+    if options.get("list", 0.0) > 0.0 {
+        println!("# pieces; crack area, m²; cos 2; sin 2; cos 4; sin 4");
+        for (seed, b) in (1..).zip(&breaks) {
+            let moments = b
+                .moments
+                .map(|m| format!("{:.5}", m / b.area.max(f64::MIN_POSITIVE)));
+            println!(
+                "pane {seed} {} {:.6e} {}",
+                b.pieces,
+                b.area,
+                moments.join(" ")
+            );
+        }
+        return Ok(());
+    }
     let areas: Vec<f64> = breaks.iter().map(|b| b.area).collect();
     println!(
         "{} breaks at {speed} m/s, {} tetrahedra: pieces {:.1}, cracks {:.1}, area {:.4} m²",
@@ -179,43 +174,6 @@ fn hit(seeds: u64, speed: f64, options: &Options) -> Result<()> {
     for (k, name) in ["cos 2", "sin 2", "cos 4", "sin 4"].iter().enumerate() {
         let (value, error) = ratio(breaks.iter().map(|b| b.moments[k]), &areas);
         println!("{name}: {value:+.3} ± {error:.3}");
-    }
-    Ok(())
-}
-
-/// Prints the breaks of panes of several meshes, a line each.
-fn meshes(seeds: u64, speed: f64, options: &Options) -> Result<()> {
-    println!(
-        "| mesh | tetrahedra | pieces | area, cm² | χ² | p: pieces | area | cos 2 | sin 2 | cos 4 | sin 4 |
-| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |"
-    );
-    let mut first: Option<Vec<Break>> = None;
-    for (name, own) in MESHES {
-        let mut options = options.clone();
-        let own = own.iter().map(|&(name, value)| (name.into(), value));
-        options.0.extend(own);
-        let asset = Arc::new(pane(&options)?);
-        let breaks = breaks(&asset, seeds, speed, &options)?;
-        let areas: Vec<f64> = breaks.iter().map(|b| b.area).collect();
-        let (squares, freedom) = asymmetry(&shares(&breaks, &areas), &options);
-        let other = first.as_deref().unwrap_or(&breaks);
-        let p = |of: &dyn Fn(&Break) -> f64| {
-            let [a, b] = [other, &breaks].map(|list| list.iter().map(of).collect::<Vec<f64>>());
-            format!("{:.3}", kolmogorov_smirnov(&a, &b))
-        };
-        let moments = (0..4).map(|k| p(&move |b| b.moments[k] / b.area.max(f64::MIN_POSITIVE)));
-        let chances: Vec<String> = [p(&|b| b.pieces), p(&|b| b.area)]
-            .into_iter()
-            .chain(moments)
-            .collect();
-        println!(
-            "| {name} | {} | {:.1} | {:.1} | {squares:.1} of {freedom} | {} |",
-            asset.fracture.tets.len(),
-            mean(breaks.iter().map(|b| b.pieces)),
-            1e4 * mean(areas.iter().copied()),
-            chances.join(" | "),
-        );
-        first = first.or(Some(breaks));
     }
     Ok(())
 }
@@ -244,29 +202,6 @@ fn asymmetry(parts: &[(f64, f64); PARTS], options: &Options) -> (f64, usize) {
         squares.sum::<f64>()
     });
     (squares.sum(), PARTS - alike.len())
-}
-
-/// Probability that two samples of one distribution differ as much: Kolmogorov's limit with Stephens' correction for small samples.
-fn kolmogorov_smirnov(a: &[f64], b: &[f64]) -> f64 {
-    let share = |sample: &[f64], x: f64| {
-        sample.iter().filter(|&&y| y <= x).count() as f64 / sample.len() as f64
-    };
-    let apart = a
-        .iter()
-        .chain(b)
-        .map(|&x| (share(a, x) - share(b, x)).abs());
-    let most = apart.fold(0.0, f64::max);
-    let (n, m) = (a.len() as f64, b.len() as f64);
-    let size = (n * m / (n + m)).sqrt();
-    let x = (size + 0.12 + 0.11 / size) * most;
-    if x < 0.2 {
-        return 1.0;
-    }
-    let terms = (1..=100).map(|k| {
-        let k = f64::from(k);
-        (-1.0_f64).powf(k - 1.0) * (-2.0 * k * k * x * x).exp()
-    });
-    (2.0 * terms.sum::<f64>()).clamp(0.0, 1.0)
 }
 
 fn mean(numbers: impl ExactSizeIterator<Item = f64>) -> f64 {

@@ -34,10 +34,8 @@ pub(super) fn push_rows<const WIDTH: usize>(
     push(
         root,
         binary,
-        offset,
-        rows.len(),
-        ComponentType::F32,
-        kind,
+        (offset, rows.len()),
+        Layout::of(ComponentType::F32, kind),
         target,
         bounds,
     )
@@ -67,22 +65,41 @@ pub(super) fn push_indices(
     push(
         root,
         binary,
-        offset,
-        indices.len(),
-        component,
-        Type::Scalar,
+        (offset, indices.len()),
+        Layout::of(component, Type::Scalar),
         target,
         (None, None),
     )
 }
 
-fn push(
+/// Layout of the rows of an accessor.
+pub(super) struct Layout {
+    pub(super) component: ComponentType,
+    pub(super) kind: Type,
+    /// Bytes from one row to the next, if the view states them.
+    pub(super) stride: Option<usize>,
+    /// True if integers stand for −1 to 1 or 0 to 1.
+    pub(super) normalized: bool,
+}
+
+impl Layout {
+    /// Rows without gaps, as they are.
+    fn of(component: ComponentType, kind: Type) -> Self {
+        Self {
+            component,
+            kind,
+            stride: None,
+            normalized: false,
+        }
+    }
+}
+
+/// Appends a view of what the binary chunk has from `offset` on, and its accessor.
+pub(super) fn push(
     root: &mut json::Root,
     binary: &mut Vec<u8>,
-    offset: usize,
-    count: usize,
-    component: ComponentType,
-    kind: Type,
+    (offset, count): (usize, usize),
+    layout: Layout,
     target: Option<json::buffer::Target>,
     (min, max): (Option<serde_json::Value>, Option<serde_json::Value>),
 ) -> Accessor {
@@ -90,7 +107,7 @@ fn push(
         buffer: json::Index::new(0),
         byte_length: (binary.len() - offset).into(),
         byte_offset: Some(offset.into()),
-        byte_stride: None,
+        byte_stride: layout.stride.map(json::buffer::Stride),
         name: None,
         target: target.map(Valid),
         extensions: None,
@@ -102,14 +119,14 @@ fn push(
         buffer_view: Some(view),
         byte_offset: None,
         count: count.into(),
-        component_type: Valid(GenericComponentType(component)),
+        component_type: Valid(GenericComponentType(layout.component)),
         extensions: None,
         extras: None,
-        type_: Valid(kind),
+        type_: Valid(layout.kind),
         min,
         max,
         name: None,
-        normalized: false,
+        normalized: layout.normalized,
         sparse: None,
     })
 }

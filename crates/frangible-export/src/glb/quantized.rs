@@ -2,10 +2,10 @@
 
 use glam::Vec3;
 use gltf_json as json;
-use json::accessor::{ComponentType, GenericComponentType, Type};
-use json::buffer::Stride;
+use json::accessor::{ComponentType, Type};
 use json::buffer::Target::ArrayBuffer;
-use json::validation::Checked::Valid;
+
+use super::binary::{Layout, push};
 
 pub(super) const QUANTIZATION: &str = "KHR_mesh_quantization";
 
@@ -52,12 +52,12 @@ pub(super) fn push_positions(
         });
         Some(serde_json::json!(bound))
     };
-    let bounds = [column(Ord::min), column(Ord::max)];
+    let bounds = (column(Ord::min), column(Ord::max));
     // Rows begin on multiples of four bytes.
     let bytes = rows.iter().flat_map(|&[x, y, z]| [x, y, z, 0]);
     let bytes = bytes.flat_map(i16::to_le_bytes);
     let layout = (ComponentType::I16, Type::Vec3, 8);
-    let accessor = push(root, binary, bytes, rows.len(), layout, bounds);
+    let accessor = push_rows(root, binary, bytes, rows.len(), layout, bounds);
     (accessor, place)
 }
 
@@ -72,7 +72,7 @@ pub(super) fn push_normals(
         [x, y, z, 0]
     });
     let layout = (ComponentType::I8, Type::Vec3, 4);
-    push(root, binary, bytes, normals.len(), layout, [None, None])
+    push_rows(root, binary, bytes, normals.len(), layout, (None, None))
 }
 
 /// Appends colours.
@@ -87,41 +87,25 @@ pub(super) fn push_colors(
         whole.to_le_bytes()
     });
     let layout = (ComponentType::U16, Type::Vec4, 8);
-    push(root, binary, bytes, colors.len(), layout, [None, None])
+    push_rows(root, binary, bytes, colors.len(), layout, (None, None))
 }
 
-fn push(
+fn push_rows(
     root: &mut json::Root,
     binary: &mut Vec<u8>,
     bytes: impl Iterator<Item = u8>,
     count: usize,
     (component, kind, stride): (ComponentType, Type, usize),
-    [min, max]: [Option<serde_json::Value>; 2],
+    bounds: (Option<serde_json::Value>, Option<serde_json::Value>),
 ) -> json::Index<json::Accessor> {
     let offset = binary.len();
     binary.extend(bytes);
-    let view = root.push(json::buffer::View {
-        buffer: json::Index::new(0),
-        byte_length: (binary.len() - offset).into(),
-        byte_offset: Some(offset.into()),
-        byte_stride: Some(Stride(stride)),
-        name: None,
-        target: Some(Valid(ArrayBuffer)),
-        extensions: None,
-        extras: None,
-    });
-    root.push(json::Accessor {
-        buffer_view: Some(view),
-        byte_offset: None,
-        count: count.into(),
-        component_type: Valid(GenericComponentType(component)),
-        extensions: None,
-        extras: None,
-        type_: Valid(kind),
-        min,
-        max,
-        name: None,
+    let layout = Layout {
+        component,
+        kind,
+        stride: Some(stride),
         normalized: true,
-        sparse: None,
-    })
+    };
+    let target = Some(ArrayBuffer);
+    push(root, binary, (offset, count), layout, target, bounds)
 }

@@ -1,4 +1,4 @@
-//! How an authored surface looks: materials and the images of their textures, as glTF 2.0 has them.
+//! Looks of an authored surface: materials and the images of their textures, as glTF 2.0 has them.
 
 use std::sync::Arc;
 
@@ -53,7 +53,7 @@ pub enum Blending {
 /// A texture of a material.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Texture {
-    /// What it changes.
+    /// Property of the material that the texture gives.
     pub slot: TextureSlot,
     /// Index of its image.
     pub image: u32,
@@ -88,7 +88,7 @@ impl Texture {
 /// Placement of an image in texture coordinates: they are scaled, rotated, then moved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placement {
-    /// Of the origin.
+    /// Shift of the origin of the texture coordinates.
     pub offset: [f32; 2],
     /// Counter-clockwise, rad.
     pub rotation: f32,
@@ -105,7 +105,7 @@ impl Placement {
     };
 }
 
-/// What a texture changes.
+/// Property of a material that a texture gives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum TextureSlot {
     /// Multiplies the base colour and opacity; sRGB.

@@ -12,7 +12,7 @@ use super::topology::{INNER, Topology, is_between};
 /// Least cosine between the normals of a face before and after.
 const TURN: f64 = 0.3;
 
-/// The same on the outer surface, whose faces lie on what its author drew.
+/// Least cosine between the normals of an outer face before and after: these faces lie on the surface that the author drew.
 const OUTER_TURN: f64 = 0.98;
 
 /// Distances that count as none, of the largest.
@@ -83,7 +83,7 @@ struct Work<'a> {
     topology: &'a mut Topology,
     at: Vec<DVec3>,
     quadrics: Vec<Quadric>,
-    /// How often each place has changed.
+    /// Number of changes of each vertex so far.
     changes: Vec<u32>,
     heap: BinaryHeap<Candidate>,
     /// Places of the full mesh that have moved to each place.

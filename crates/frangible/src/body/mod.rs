@@ -221,7 +221,7 @@ impl Body {
             None => Arc::clone(&self.prepared),
         };
         let resistance = self.resistance.of_part(&weak_tets);
-        let tips = tips(&asset, &prepared.thickness, &state);
+        let tips = tips(&asset, &state, room(&asset, &prepared));
         Self {
             clusters: WeakClusters::default(),
             rows: Arc::default(),
@@ -303,7 +303,7 @@ impl Body {
     /// A state that does not belong to a body of this asset.
     pub fn set_state(&mut self, state: BodyState) -> Result<(), InputError> {
         state.check(&self.asset)?;
-        self.tips = tips(&self.asset, &self.prepared.thickness, &state);
+        self.tips = tips(&self.asset, &state, room(&self.asset, &self.prepared));
         self.state = state;
         Ok(())
     }
@@ -345,4 +345,10 @@ impl Body {
     pub fn weakest(&self) -> f64 {
         self.resistance.weakest
     }
+}
+
+/// Thickness of a body at its tetrahedra where cracks have sections, m: in no wall, and of no piece.
+fn room<'a>(asset: &'a Asset, prepared: &'a Prepared) -> impl Fn(u32) -> Option<f32> + 'a {
+    let is_solid = |tet: usize| asset.portion.is_none() && prepared.skin.wall(asset, tet).is_none();
+    move |tet| is_solid(tet as usize).then(|| prepared.thickness[tet as usize])
 }

@@ -38,7 +38,7 @@ pub(super) struct Section {
     /// G Λ⁻¹ Gᵀ, a row for N and one for M of each column.
     pub(super) stiffness: Vec<f64>,
     /// N and M of the columns in the motion, N and N m, and the time step.
-    pub(super) resultants: Vec<f64>,
+    resultants: Vec<f64>,
     pub(super) step: usize,
     /// Cracked area when the section was found, m².
     pub(super) found: f64,
@@ -235,9 +235,20 @@ impl Section {
         self.known = false;
     }
 
-    /// Sets the resultants of a time step.
-    pub(super) fn set_resultants(&mut self, resultants: Vec<f64>, step: usize) {
-        (self.resultants, self.step, self.known) = (resultants, step, false);
+    /// Finds the resultants of a time step from the displacements of the analysis nodes, m.
+    pub(super) fn set_step(&mut self, step: usize, mut displacement: impl FnMut(u32) -> Vec3) {
+        self.resultants.fill(0.0);
+        for (&node, factors) in self
+            .nodes
+            .iter()
+            .zip(self.factors.chunks(self.columns.len()))
+        {
+            let u = displacement(node);
+            for (sum, factor) in self.resultants.iter_mut().zip(factors.as_flattened()) {
+                *sum += f64::from(factor.dot(u));
+            }
+        }
+        (self.step, self.known) = (step, false);
     }
 
     /// Energy release rate of a crack that enters the section at a place that is not cracked yet, J/m².
@@ -360,7 +371,7 @@ mod tests {
         let (area, height) = (section.columns[0].area, section.columns[0].height());
         let resultants = [tension * area, bending * area * height / 6.0];
         section.stiffness = vec![0.0; 36];
-        section.set_resultants(resultants.repeat(3), 0);
+        section.resultants = resultants.repeat(3);
         section.update(MODULUS);
         section
     }

@@ -19,7 +19,7 @@ const GREW: f64 = 1.3;
 /// Distance from a section, in mean edges, up to which a crack runs along it.
 const NEAR: f32 = 2.0;
 
-/// The same in heights of the section, if that is farther.
+/// Distance from a section, in its heights, up to which a crack runs along it, if that is more than [`NEAR`].
 const NEAR_HEIGHT: f32 = 0.25;
 
 /// A section is compact if its second moments of area differ by less than this factor.
@@ -47,16 +47,7 @@ impl CrackSystem<'_> {
         };
         let section = &mut self.sections[k as usize];
         if section.step != field.step {
-            let columns = section.columns().len();
-            let mut sums = vec![0.0_f64; 2 * columns];
-            for (&node, factors) in section.nodes.iter().zip(section.factors.chunks(columns)) {
-                let u = field.displacement_of(node);
-                for (sum, [force, moment]) in sums.chunks_mut(2).zip(factors) {
-                    sum[0] += f64::from(force.dot(u));
-                    sum[1] += f64::from(moment.dot(u));
-                }
-            }
-            section.set_resultants(sums, field.step);
+            section.set_step(field.step, |node| field.displacement_of(node));
         }
         section.update(self.asset.material.contact_modulus());
     }
@@ -79,7 +70,7 @@ impl CrackSystem<'_> {
 
     /// Gives a crack that has become large its section: one that there is already, or its own.
     fn find_first(&mut self, id: usize, field: &StressField) {
-        let (own, mesh) = (&self.cracks[id], &self.asset.fracture);
+        let own = &self.cracks[id];
         let area = own.area + own.tip.map_or(0.0, |tip| tip.area());
         let room = f64::from(self.thickness[own.start as usize]);
         if area <= own.unsought.max(LARGE * room * room) {
@@ -99,11 +90,9 @@ impl CrackSystem<'_> {
         });
         let k = match known {
             Some(k) => {
-                for cut in self.cracks[id].unsettled() {
-                    let x = mesh.corners(cut.tet as usize);
-                    let middle = crossing_middle(&x, &cut.values);
-                    let area = crossing_area(&x, &cut.values);
-                    self.sections[k].cut(middle, cut.direction, area);
+                let cuts: Vec<_> = self.cuts_along(&[id], None).collect();
+                for (middle, direction, area) in cuts {
+                    self.sections[k].cut(middle, direction, area);
                 }
                 k
             }
@@ -119,7 +108,7 @@ impl CrackSystem<'_> {
         self.share_sections();
     }
 
-    /// Of sections that lie side by side, only the one that is cracked most is fed: its cracks release the others.
+    /// Feeds only the most cracked one of sections that lie side by side: its cracks release the others.
     fn share_sections(&mut self) {
         let all: Vec<(Plane, f32, f64)> = self
             .sections
@@ -210,8 +199,8 @@ impl CrackSystem<'_> {
         Some(section)
     }
 
-    /// The plane with its axes along the greatest and the least extent of the section. The height of a section that is about as wide as it is high runs
-    /// from the cracks to the ligament.
+    /// The plane with its axes along the greatest and the least extent of the section. The height runs away from the cracks, so that the axes turn with
+    /// the body; in a section that is about as wide as it is high, straight from the cracks to the ligament.
     fn turned(&self, plane: Plane, cracks: &[usize], polygons: &[(u32, Vec3, f32)]) -> Plane {
         let (mut area, mut mean, mut square) = (0.0_f32, Vec2::ZERO, [0.0_f32; 3]);
         for &(_, at, own) in polygons {
@@ -228,19 +217,25 @@ impl CrackSystem<'_> {
         }
         let [xx, xy, yy] = square;
         let (sin, cos) = libm::sincosf(0.5 * libm::atan2f(2.0 * xy, xx - yy));
-        let [a, b] = plane.axes;
-        let mut axes = [cos * a + sin * b, cos * b - sin * a];
         let least = (yy * cos * cos - 2.0 * xy * sin * cos + xx * sin * sin).max(0.0);
-        if xx + yy - least < COMPACT * least {
-            let (mut cracked, mut sum) = (Vec2::ZERO, 0.0);
-            for (middle, _, own) in self.cuts_along(cracks, Some(plane)) {
-                cracked += own * plane.place(middle);
-                sum += own;
-            }
-            let [x, y] = (cracked / sum - mean).to_array();
-            let toward = (x * a + y * b).normalize_or(axes[1]);
-            axes = [plane.normal.cross(toward), toward];
+        let (mut cracked, mut sum) = (Vec2::ZERO, 0.0);
+        for (middle, _, own) in self.cuts_along(cracks, Some(plane)) {
+            cracked += own * plane.place(middle);
+            sum += own;
         }
+        // No crack may run along the new plane.
+        let away = match sum > 0.0 {
+            true => mean - cracked / sum,
+            false => Vec2::ZERO,
+        };
+        let narrow = Vec2::new(-sin, cos);
+        let toward = match xx + yy - least < COMPACT * least {
+            true => away.normalize_or(narrow),
+            false => narrow * away.dot(narrow).signum(),
+        };
+        let [a, b] = plane.axes;
+        let toward = toward.x * a + toward.y * b;
+        let axes = [plane.normal.cross(toward), toward];
         let height = libm::sqrtf(12.0 * least / area);
         Plane {
             axes,

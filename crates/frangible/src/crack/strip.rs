@@ -73,6 +73,15 @@ mod tests {
     }
 
     #[test]
+    fn fronts_wake_before_their_section_can_move_them() {
+        let largest = tension(MOST) + 1.5 * bending(MOST);
+        assert!(
+            (0.9..=1.0).contains(&(largest / crate::tips::SECTION)),
+            "{largest}"
+        );
+    }
+
+    #[test]
     fn integrals_grow_by_their_integrands() {
         for alpha in [0.1, 0.5, 0.9] {
             let step = 0.01;

@@ -1,4 +1,4 @@
-//! What of a glTF is not kept.
+//! Parts of a glTF that are not kept, for the note on the file.
 
 use gltf_json::Root;
 use gltf_json::mesh::Semantic;

@@ -146,7 +146,7 @@ impl Header {
     }
 }
 
-/// What stands behind the second word; it may hold spaces.
+/// Text after the second word of a header line, spaces included.
 fn file_name(line: &[u8]) -> String {
     let mut rest = line.trim_ascii();
     for _ in 0..2 {

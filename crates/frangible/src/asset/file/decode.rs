@@ -232,7 +232,7 @@ fn supported(r: &Reader<'_>) -> Result<Vec<u32>, AssetFileError> {
     Ok(nodes)
 }
 
-/// Of rows that lie one after another.
+/// Sum of the lengths of rows that lie one after another.
 pub(super) fn sum(sizes: &[u32]) -> u64 {
     sizes.iter().map(|&n| u64::from(n)).sum()
 }
