@@ -7,7 +7,7 @@ use rand_chacha::rand_core::Rng;
 
 use super::build::build;
 use super::label::Labels;
-use crate::asset::{AnalysisMesh, Asset, ConvexCell, Embedding, OuterSurface};
+use crate::asset::{AnalysisMesh, Asset, ConvexCell, EmbeddedPoint, Embedding, OuterSurface};
 use crate::crack::{CrackSystem, Known};
 use crate::mesh::{EDGES, MassProperties, TetMesh};
 use crate::modal::ModalBasis;
@@ -77,14 +77,22 @@ pub(super) fn block(n: usize) -> Asset {
         1.0,
         (0..fracture.tets.len()).map(|e| fracture.corners(e).map(Vec3::as_dvec3)),
     );
+    let middle = EmbeddedPoint {
+        element: 0,
+        barycentric: [0.25; 4],
+        offset: Vec3::ZERO,
+    };
     Asset {
         name: "block".into(),
         material: Material::preset("glass").unwrap(),
         cell_of_tet: vec![0; fracture.tets.len()],
+        embedding: Embedding {
+            tets: vec![middle; fracture.tets.len()],
+            nodes: Vec::new(),
+        },
         fracture: fracture.into(),
         surface,
-        analysis: AnalysisMesh::default(),
-        embedding: Embedding::default(),
+        analysis: one_element(),
         modes: ModalBasis::default(),
         mass,
         cells: vec![ConvexCell::default()],
@@ -92,6 +100,17 @@ pub(super) fn block(n: usize) -> Asset {
         supported: Vec::new(),
         render: None,
         portion: None,
+    }
+}
+
+/// A single element around the block.
+fn one_element() -> AnalysisMesh {
+    let corners = [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z];
+    let middles = EDGES.map(|[i, j]| 0.5 * (corners[i] + corners[j]));
+    AnalysisMesh {
+        nodes: corners.into_iter().chain(middles).collect(),
+        elements: vec![[0, 1, 2, 3, 4, 5, 6, 7, 8, 9]],
+        barycentric_gradients: vec![[-Vec3::ONE, Vec3::X, Vec3::Y, Vec3::Z]],
     }
 }
 
