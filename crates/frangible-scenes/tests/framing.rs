@@ -250,7 +250,8 @@ fn each_moment_of_four_scenes_made_at_random_fills_its_picture_but_for_known_one
     let bad: Vec<String> = (1..=4)
         .flat_map(|n| badly_framed(any_scene(n), 20))
         .collect();
-    assert_eq!(bad, ["any 4, just after"]);
+    // A slab of chocolate breaks through along its sections, and its pieces lie far apart.
+    assert_eq!(bad, ["any 4, at the end"]);
 }
 
 #[test]
