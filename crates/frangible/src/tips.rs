@@ -18,7 +18,7 @@ use glam::Vec3;
 use crate::asset::Asset;
 use crate::material::Material;
 use crate::mesh::{EDGES, FACES, NO_NEIGHBOUR};
-use crate::state::{BodyState, Cuts, OldCrack, OldCut, crossing_area};
+use crate::state::{BodyState, Cuts, OldCrack, OldCut, nominal_area};
 use crate::stress::MARGIN;
 
 /// H over the edge of the analysis' cells. Chosen by measurement: in a bent bar (`frangible-bake/tests/fronts.rs`, 3000 elements,
@@ -102,7 +102,7 @@ pub(crate) fn tips(
         }
         for cut in uncut.inside(crack) {
             let x = asset.fracture.corners(cut.tet as usize);
-            tip.area += f64::from(crossing_area(&x, &cut.values));
+            tip.area += f64::from(nominal_area(&x, &cut.values, cut.direction));
             tip.front += uncut.ahead(cut).map(|(_, length)| length).sum::<f64>();
         }
         if let Some(room) = room(crack.start).map(f64::from)

@@ -15,14 +15,13 @@ use glam::Vec3;
 use super::arrival::{Entered, Source};
 use super::felt::Felt;
 use super::field::StressField;
-use super::propagation::gradient;
 use super::release::once;
 use super::single::{Crack, ElementCut, Front};
 use super::surface::CrackFrame;
 use super::system::{CrackSystem, UNCUT};
 use crate::config::{CrackPath, CrackTiming};
 use crate::material::Material;
-use crate::state::{crossing_area, crossing_middle};
+use crate::state::crossing_middle;
 use crate::stress::Symmetric3;
 
 /// Angle between the two cracks (Yoffe 1951).
@@ -226,7 +225,7 @@ pub(super) fn start(
     );
     let x = mesh.corners(e as usize);
     let values = x.map(|p| frame.planar(p));
-    let area = crossing_area(&x, &values);
+    let area = system.area(&x, &values, fork.normal);
     let felt = field.at(e as usize, crossing_middle(&x, &values));
     // It grows from the crack that it leaves, and is fed as that one is.
     let flaw = system.depth(&system.cracks[parent as usize], e, &felt);
@@ -255,7 +254,7 @@ pub(super) fn start(
     let new = ElementCut {
         tet: e,
         values,
-        direction: gradient(&x, &values).unwrap_or(fork.normal),
+        direction: fork.normal,
         opens: cut.opens,
         time: cut.time + f64::from(distance) / (speed * material.rayleigh_speed()),
     };

@@ -17,9 +17,8 @@ use super::surface::CrackFrame;
 use super::suspects::{Suspect, Suspects};
 use super::system::CrackSystem;
 use super::{advance, propagation::gradient, retry};
-use crate::config::CrackTiming;
+use crate::config::{CrackPath, CrackTiming};
 use crate::rng::{Purpose, stream, uniform};
-use crate::state::crossing_area;
 use crate::stress::{Symmetric3, lane, largest_eigenvalue, perpendicular_axes, principal_axes};
 
 /// Below this relative gap of the two largest tensions the direction between them is rounding noise.
@@ -177,7 +176,7 @@ fn try_start(system: &mut CrackSystem, field: &mut StressField, suspect: &Suspec
     );
     let x = asset.fracture.corners(e as usize);
     let values = x.map(|p| frame.planar(p));
-    let area = crossing_area(&x, &values);
+    let area = system.area(&x, &values, normal);
     let cost = system.cost(e, area);
     if !system.ledger.has(cost) {
         return system.unpaid.note(suspect.place, cost);
@@ -206,7 +205,10 @@ fn try_start(system: &mut CrackSystem, field: &mut StressField, suspect: &Suspec
         system.cracks[id as usize].flaw,
         system.cracks[id as usize].at_surface,
     ) = (flaw, at_surface);
-    let direction = gradient(&x, &values).unwrap_or(normal);
+    let direction = match system.config.path {
+        CrackPath::Planar => gradient(&x, &values).unwrap_or(normal),
+        CrackPath::Steered { .. } => normal,
+    };
     system.fracture(
         id,
         ElementCut {

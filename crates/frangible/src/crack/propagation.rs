@@ -27,7 +27,7 @@ use super::single::{ElementCut, Front};
 use super::system::{CrackSystem, UNCUT};
 use crate::config::{CrackPath, CrackTiming};
 use crate::fields::Tip;
-use crate::state::{crossing_area, crossing_middle};
+use crate::state::crossing_middle;
 use crate::stress::{Symmetric3, largest_eigenvalue};
 
 /// Share of R_c below which the tension across a crack does not steer it.
@@ -114,7 +114,7 @@ fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
             CrackTiming::Instant => crossing.from.time,
         },
     };
-    let area = crossing_area(&crossing.x, &cut.values);
+    let area = system.area(&crossing.x, &cut.values, cut.direction);
     match pays(system, &felt, &front, &cut, place, area) {
         Payment::Refused => {}
         Payment::Later { lacks } => system.stalled.push(Front {
@@ -228,14 +228,18 @@ fn steers(
         reach: KINK_REACH * system.edge,
     };
     let toward = system.resistance.toughness.kinked(mesh, tip);
-    let predicted = extrapolated(crack, x, values, *fourth, toward);
+    let rough = x.map(|x| crack.frame.roughness(x));
+    let mut smooth: [f32; 4] = std::array::from_fn(|k| values[k] + rough[k]);
+    let predicted = extrapolated(x, &smooth, *fourth, toward) - rough[*fourth];
     let node = mesh.tets[front.tet as usize][*fourth];
     let known = system.values.get(front.crack, node);
     if known.is_some_and(|known| (known - predicted).abs() > SELF_MEETING * system.edge) {
         return None;
     }
     values[*fourth] = known.unwrap_or(predicted);
-    Some((gradient(x, values).unwrap_or(toward), opens))
+    // The roughness turns the surface, but not the way of the crack.
+    smooth[*fourth] = values[*fourth] + rough[*fourth];
+    Some((gradient(x, &smooth).unwrap_or(toward), opens))
 }
 
 /// Result of a crack's energy test for a tetrahedron.
@@ -306,27 +310,21 @@ fn straight_on(system: &CrackSystem, front: &Front, crossing: &Crossing) -> (f32
     if system.config.path == CrackPath::Planar {
         // The paper looks at the stress of the tetrahedron [G12 §5.2.3].
         let centroid = system.centroids[front.tet as usize];
-        return (crossing_area(x, &values), centroid);
+        return (system.area(x, &values, from.direction), centroid);
     }
-    let crack = &system.cracks[front.crack as usize];
-    values[*fourth] = extrapolated(crack, x, &values, *fourth, from.direction);
-    (crossing_area(x, &values), crossing_middle(x, &values))
+    let frame = &system.cracks[front.crack as usize].frame;
+    let rough = x.map(|x| frame.roughness(x));
+    let smooth = std::array::from_fn(|k| values[k] + rough[k]);
+    values[*fourth] = extrapolated(x, &smooth, *fourth, from.direction) - rough[*fourth];
+    let area = system.area(x, &values, from.direction);
+    (area, crossing_middle(x, &values))
 }
 
-/// s at the fourth node: mean of the extrapolations from the three known ones.
-fn extrapolated(
-    crack: &super::Crack,
-    x: &[Vec3; 4],
-    values: &[f32; 4],
-    fourth: usize,
-    direction: Vec3,
-) -> f32 {
-    let rough = crack.frame.roughness(x[fourth]);
+/// s of the smooth surface at the fourth node: mean of the extrapolations from the three known ones.
+fn extrapolated(x: &[Vec3; 4], smooth: &[f32; 4], fourth: usize, direction: Vec3) -> f32 {
     let sum: f32 = (0..4)
         .filter(|&i| i != fourth)
-        .map(|i| {
-            values[i] + (x[fourth] - x[i]).dot(direction) - (rough - crack.frame.roughness(x[i]))
-        })
+        .map(|i| smooth[i] + (x[fourth] - x[i]).dot(direction))
         .sum();
     sum / 3.0
 }

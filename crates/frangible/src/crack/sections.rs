@@ -148,7 +148,10 @@ impl CrackSystem<'_> {
             let x = mesh.corners(cut.tet as usize);
             let middle = crossing_middle(&x, &cut.values);
             let runs = along.is_none_or(|plane| plane.has(middle, cut.direction));
-            runs.then(|| (middle, cut.direction, crossing_area(&x, &cut.values)))
+            runs.then(|| {
+                let area = self.area(&x, &cut.values, cut.direction);
+                (middle, cut.direction, area)
+            })
         })
     }
 

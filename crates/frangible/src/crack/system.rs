@@ -18,7 +18,7 @@ use crate::asset::Asset;
 use crate::body::Body;
 use crate::config::{CrackPath, CrackTiming, FractureConfig};
 use crate::fields::Resistance;
-use crate::state::{OldCrack, crossing_middle};
+use crate::state::{OldCrack, crossing_area, crossing_middle, nominal_area};
 use crate::tips::{Tip, front_limit, is_inside};
 
 /// Mark of a tetrahedron that no crack has fractured.
@@ -265,6 +265,15 @@ impl<'a> CrackSystem<'a> {
     pub(crate) fn may_pay(&self, place: u32) -> bool {
         self.ledger
             .has(self.unpaid.of(place).max(self.least_cost()))
+    }
+
+    /// Area of a crack in a tetrahedron, m²: that of its smooth surface, for which toughness is measured. A planar crack counts its roughness
+    /// `[G12 Eq. 11]`.
+    pub(super) fn area(&self, x: &[Vec3; 4], values: &[f32; 4], direction: Vec3) -> f32 {
+        match self.config.path {
+            CrackPath::Planar => crossing_area(x, values),
+            CrackPath::Steered { .. } => nominal_area(x, values, direction),
+        }
     }
 
     /// Fracture energy of this area, m², in a tetrahedron, J.

@@ -47,8 +47,18 @@ pub(crate) fn crossing_middle(x: &[Vec3; 4], s: &[f32; 4]) -> Vec3 {
 
 /// Area of the crack inside a tetrahedron, m² `[G12 Eq. 11]`.
 pub(crate) fn crossing_area(x: &[Vec3; 4], s: &[f32; 4]) -> f32 {
+    area(x, s, Vec3::length)
+}
+
+/// Area of the crack inside a tetrahedron without its roughness, m²: projected on a plane of this unit normal.
+pub(crate) fn nominal_area(x: &[Vec3; 4], s: &[f32; 4], normal: Vec3) -> f32 {
+    area(x, s, |a| a.dot(normal).abs())
+}
+
+/// Sum of a measure of the crack's triangles in a tetrahedron, given their vector areas, m².
+fn area(x: &[Vec3; 4], s: &[f32; 4], measure: impl Fn(Vec3) -> f32) -> f32 {
     let (p, corners) = crossing_polygon(x, s);
-    let triangle = |a: Vec3, b: Vec3, c: Vec3| 0.5 * (b - a).cross(c - a).length();
+    let triangle = |a: Vec3, b: Vec3, c: Vec3| 0.5 * measure((b - a).cross(c - a));
     match corners {
         3 => triangle(p[0], p[1], p[2]),
         4 => triangle(p[0], p[1], p[2]) + triangle(p[0], p[2], p[3]),
