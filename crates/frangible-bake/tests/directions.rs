@@ -176,6 +176,38 @@ fn a_crack_keeps_its_direction_and_its_speed_at_every_angle_to_the_mesh() {
     }
 }
 
+/// Where the mesh resolves the roughness it neither turns a crack nor costs energy: toughness is measured per area without it.
+#[test]
+fn roughness_does_not_turn_a_crack_nor_add_to_its_area() {
+    let side = 0.06;
+    let block = Shape::block([side; 3]);
+    let mut asset = moved(block, 60_000.0, |p| [Vec3::new(p.x, 0.0, 0.0)]);
+    (
+        asset.material.roughness_amplitude,
+        asset.material.roughness_wavelength,
+    ) = (2e-3, 8e-3);
+    let asset = Arc::new(asset);
+    let material = &asset.material;
+    let strain = 1.5 * material.strength / material.youngs_modulus;
+    for seed in 0..4 {
+        let body = weak_at(&asset, Vec3::ZERO, seed);
+        let mut config = FractureConfig::default();
+        (config.branching, config.energy_ledger) = (false, false);
+        let motion = Motion::new([strain as f32].repeat(64), 1, 1e9, 1e9);
+        let (outcome, trace) = follow_traced(&body, &motion, &[], 2e-6, &config).unwrap();
+        let cuts = cuts(&asset, &trace);
+        let whole = cuts.iter().map(|cut| cut.area).sum::<f64>() / (side * side);
+        assert!(whole > 1.2, "it is rough: {whole}");
+        let area = outcome.report().crack_area / (side * side);
+        assert!((area - 1.0).abs() < 0.1, "{area} of the section");
+        let start = cuts[0].middle.x;
+        for cut in &cuts {
+            let off = (cut.middle.x - start).abs();
+            assert!(off < 4.5e-3, "{off} m from its plane");
+        }
+    }
+}
+
 /// A crack right round a tube takes the time that the way along the wall takes, not that of the chord through the air.
 #[test]
 fn a_crack_runs_round_a_tube_at_its_speed() {
