@@ -11,7 +11,7 @@ use frangible_scenes::{
     SceneError, Support, bake, play, scene,
 };
 
-use crate::common::drawn::{Lie, lies};
+use crate::common::drawn::{Lie, closed, lies};
 
 /// A built-in scene with few modes.
 fn cheap(name: &str) -> (Scene, Vec<BakedBody>) {
@@ -245,6 +245,19 @@ fn pieces_at_rest_lie_where_they_are_drawn() {
     assert!(10 * lies.len() > 9 * run.breaks[0].masses.len());
     for lie in lies {
         assert!(lie.is_true(), "{lie}");
+    }
+}
+
+#[test]
+fn drawn_pieces_are_closed_and_hold_their_volume() {
+    let (_, [run, _]) = glass();
+    let closed = closed(&run.recording);
+    assert!(closed.len() > run.breaks[0].masses.len());
+    for c in closed {
+        let (name, sides) = (&c.name, c.open_sides);
+        assert_eq!(sides, 0, "{name}: {sides} sides do not have two faces");
+        let off = 100.0 * c.volume_off;
+        assert!(off < 0.5, "{name}: its volume is off by {off:.3} %");
     }
 }
 
