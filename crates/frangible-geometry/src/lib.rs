@@ -3,7 +3,7 @@
 //! - [`TetMesh`]: linear tetrahedra with their neighbours; [`TriMesh`]: the closed surface of a piece; [`RenderMesh`]: its render mesh;
 //! - [`RenderSurface`]: the authored surface, and [`RenderIndex`], which divides it among the pieces;
 //! - [`TriangleTree`]: the closest point of a surface; [`AlongSurface`]: distances along one; [`MassProperties`]: mass, centre and inertia;
-//! - [`merged_parts`], [`thinned`], [`bounds`] and [`box_of`]: fewer and simpler convex parts for colliders;
+//! - [`merged_parts`], [`ConvexHull`], [`thinned`], [`bounds`] and [`box_of`]: fewer and simpler convex parts for colliders;
 //! - [`Rows`], [`ByNode`], [`DisjointSets`]: lists, tables and sets of indices.
 //!
 //! The core, the bake and the mesher share this crate. It contains neither physics nor file formats.
@@ -17,6 +17,7 @@ mod closest;
 mod convex;
 mod disjoint;
 mod drawn;
+mod hull;
 mod mass;
 #[cfg(test)]
 mod random;
@@ -37,6 +38,7 @@ pub use drawn::{
     RenderIndex, RenderMaterial, RenderSurface, Texture, TextureSlot, Wrap,
 };
 pub use glam;
+pub use hull::ConvexHull;
 pub use mass::MassProperties;
 pub use render::{RenderMesh, box_projection};
 pub use rows::Rows;

@@ -34,7 +34,8 @@ pub enum Breaking {
 pub struct ColliderDetail {
     /// Largest number of convex parts, 1 or more: neighbouring cells are merged down to this number. 1 gives the convex hull.
     pub parts: usize,
-    /// Largest number of points of each part, 4 or more.
+    /// Largest number of points of each part, 4 or more. A part of a fragment has fewer where fewer suffice: its hull follows what is drawn to
+    /// 0.3 % of the fragment's longest side, or of [`WorldConfig::length_unit`] if that is longer.
     pub hull_points: usize,
 }
 
@@ -122,11 +123,13 @@ pub struct WorldConfig {
     pub hull_volume_ratio: f32,
     /// Detail of the collider of a whole body; that of a box is a box. Default: all the convex cells of the bake, 128 points each.
     pub whole_collider: ColliderDetail,
-    /// Detail of the colliders of fragments that a single hull does not fit. Default: 12 parts of at most 48 points. It dominates the cost of a
-    /// heap of pieces. Measured in `frangible-lab bench shop`, Rapier's time per frame: every share of a cell with 128 points
-    /// 97 ms, this 45 ms, 4 parts of 24 points with [`WorldConfig::hull_volume_ratio`] 3 13 ms.
+    /// Detail of the colliders of fragments; those that a single hull fits have one part. Default: 12 parts of at most 128 points. It dominates
+    /// the cost of a heap of pieces. Measured in `frangible-lab bench shop`, Rapier's time per frame, when every hull had all the points that it
+    /// may have: every share of a cell with 128 points 97 ms, 12 parts of 48 points 45 ms, 4 parts of 24 points with
+    /// [`WorldConfig::hull_volume_ratio`] 3 13 ms.
     pub fragment_collider: ColliderDetail,
-    /// Separation speed of overlapping fragments of the same parent, m/s; zero leaves overlaps unchanged.
+    /// Separation speed of fragments of the same parent whose colliders overlap when they are born, m/s; zero leaves these overlaps unchanged.
+    /// Fragments that are pressed into each other later come out as other bodies do.
     /// Default 0.002: in a chain of pieces the speeds add up, and the sum must stay below the threshold of rest.
     pub overlap_relaxation: f32,
     /// Rolling resistance arm, m: the torque of rolling resistance is this length times the normal force. Default 5e-4, for rough stone or
@@ -138,7 +141,7 @@ pub struct WorldConfig {
     /// Distance within which a joint of a broken body moves to the fragment nearest to its anchor, m; otherwise it is released.
     /// Default 5e-3.
     pub joint_reach: f32,
-    /// Mass below which fragments are debris, kg: they get a box collider and are removed if there are too many. Default 1e-4, a
+    /// Mass below which fragments are debris, kg: their collider is a single hull, and they are removed if there are too many. Default 1e-4, a
     /// chip of glass 3 mm wide.
     pub debris_mass: f32,
     /// Mass below which fragments are dust, kg: debris without a collider, which falls through everything, costs almost nothing, and is
@@ -188,7 +191,7 @@ impl Default for WorldConfig {
             },
             fragment_collider: ColliderDetail {
                 parts: 12,
-                hull_points: 48,
+                hull_points: 128,
             },
             overlap_relaxation: 0.002,
             rolling_arm: 5e-4,
@@ -236,7 +239,7 @@ impl WorldConfig {
             },
             fragment_collider: ColliderDetail {
                 parts: 4,
-                hull_points: 24,
+                hull_points: 64,
             },
             breaking: Breaking::AfterStep {
                 budget: 2_000,

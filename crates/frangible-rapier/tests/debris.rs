@@ -1,10 +1,11 @@
 //! Debris is simple and limited.
 
-use crate::common::{at, body, box_asset, slicer, step_to_break, world};
+use crate::common::{at, body, box_asset, sliced, slicer, step_to_break, world};
 use frangible::glam::Vec3;
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_rapier::rapier3d::geometry::ShapeType;
 use frangible_rapier::rapier3d::math::Vector;
+use frangible_rapier::rapier3d::parry::bounding_volume::BoundingVolume;
 use frangible_rapier::{AtRest, Ball, BreakableWorld, SurfaceProperties, WorldConfig};
 
 const HALF: Vec3 = Vec3::new(0.02, 0.02, 0.0004);
@@ -130,15 +131,18 @@ fn steps_that_take_too_long_cost_debris() {
 }
 
 #[test]
-fn debris_collides_as_a_box() {
+fn debris_collides_as_its_hull() {
     let mut world = world(false);
     world.set_break_function(slicer(HALF, [8, 8, 1], 0.0, 0.0));
-    for handle in shoot(&mut world, 0.0) {
+    let fragments = sliced(HALF, [8, 8, 1], 0.0, 0.0).fragments;
+    for (handle, fragment) in shoot(&mut world, 0.0).into_iter().zip(fragments) {
         let collider = world.physics.bodies[handle].colliders()[0];
-        assert_eq!(
-            world.physics.colliders[collider].shape().shape_type(),
-            ShapeType::Cuboid
-        );
+        let shape = world.physics.colliders[collider].shape();
+        assert_eq!(shape.shape_type(), ShapeType::ConvexPolyhedron);
+        let bounds = shape.compute_local_aabb();
+        for &p in &fragment.mesh.positions {
+            assert!(bounds.loosened(1e-6).contains_local_point(p), "{p}");
+        }
     }
 }
 

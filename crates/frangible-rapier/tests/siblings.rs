@@ -1,7 +1,8 @@
-//! Overlapping pieces of one body neither explode apart, nor stick, nor sink.
+//! Overlapping pieces of one body neither explode apart, nor stick, nor sink, and come out of each other.
 
 use crate::common::{at, body, box_asset, slicer, step_to_break, world};
 use frangible::glam::Vec3;
+use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_rapier::rapier3d::math::Vector;
 use frangible_rapier::{Ball, BreakEvent, BreakableWorld, SurfaceProperties};
 
@@ -89,4 +90,43 @@ fn pieces_settle_and_sleep_on_a_thin_floor() {
         assert!(world.at_rest(), "still moving after {steps} steps");
         assert!(lowest > 0.005, "a piece sank to {lowest} m");
     }
+}
+
+#[test]
+fn a_piece_that_is_pressed_into_another_comes_out() {
+    let (mut world, event) = broken_box(false, 0.2, 0.0);
+    for _ in 0..24 {
+        world.step().unwrap();
+    }
+    // The nearest two of the pieces, one of them pushed into the other.
+    let place = |world: &BreakableWorld, i: usize| {
+        let piece = &world.physics.bodies[event.fragments[i]];
+        piece.translation()
+    };
+    let [a, b] = [event.fragments[0], event.fragments[1]];
+    let apart = place(&world, 1) - place(&world, 0);
+    let depth = 0.003;
+    let pushed = place(&world, 1) - depth * apart.normalize();
+    world.physics.bodies[b].set_translation(pushed, true);
+    for _ in 0..48 {
+        world.step().unwrap();
+    }
+    let overlap = |world: &BreakableWorld| {
+        let collider = |body: RigidBodyHandle| world.physics.bodies[body].colliders()[0];
+        let pair = world
+            .physics
+            .narrow_phase
+            .contact_pair(collider(a), collider(b));
+        let contacts = pair.into_iter().flat_map(|pair| pair.manifolds());
+        let contacts = contacts.flat_map(|manifold| &manifold.points);
+        contacts.map(|contact| -contact.dist).fold(0.0, f32::max)
+    };
+    let left = overlap(&world);
+    let fastest = event
+        .fragments
+        .iter()
+        .map(|&f| world.physics.bodies[f].linvel().length());
+    println!("{:.2} mm of {:.1} mm are left", 1e3 * left, 1e3 * depth);
+    assert!(left < 3e-4, "{left} m of the overlap are left after 0.2 s");
+    assert!(fastest.fold(0.0, f32::max) < 0.5, "a piece was thrown out");
 }

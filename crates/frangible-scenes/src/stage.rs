@@ -99,7 +99,7 @@ pub(crate) fn set_up_kinds<'a>(
         };
         config.fragment_collider = ColliderDetail {
             parts: 4,
-            hull_points: 24,
+            hull_points: 64,
         };
         config.hull_volume_ratio = 2.0;
         config.dust_mass = scene.pieces.least_mass as f32;

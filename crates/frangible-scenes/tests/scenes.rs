@@ -11,6 +11,8 @@ use frangible_scenes::{
     SceneError, Support, bake, play, scene,
 };
 
+use crate::common::drawn::{Lie, closed, lies};
+
 /// A built-in scene with few modes.
 fn cheap(name: &str) -> (Scene, Vec<BakedBody>) {
     let mut scene = scene(name).unwrap();
@@ -224,6 +226,38 @@ fn pieces_end_on_the_floor() {
     for (name, y) in lowest {
         assert!(y > -0.003, "{name} lies {:.1} mm below the floor", -1e3 * y);
         assert!(y < 0.060, "{name} hovers {:.1} mm above the floor", 1e3 * y);
+    }
+}
+
+#[test]
+fn pieces_at_rest_lie_where_they_are_drawn() {
+    let (_, [run, _]) = glass();
+    let lies = lies(&run.recording);
+    let most = |f: fn(&Lie) -> f64| 1e3 * lies.iter().map(f).fold(0.0, f64::max);
+    println!(
+        "{} at rest, {:.2} mm in the floor, {:.2} mm in another, {:.2} mm apart",
+        lies.len(),
+        most(|lie| lie.in_floor),
+        most(|lie| lie.in_other.0),
+        most(|lie| lie.apart)
+    );
+    // A few may still roll.
+    assert!(10 * lies.len() > 9 * run.breaks[0].masses.len());
+    for lie in lies {
+        assert!(lie.is_true(), "{lie}");
+    }
+}
+
+#[test]
+fn drawn_pieces_are_closed_and_hold_their_volume() {
+    let (_, [run, _]) = glass();
+    let closed = closed(&run.recording);
+    assert!(closed.len() > run.breaks[0].masses.len());
+    for c in closed {
+        let (name, sides) = (&c.name, c.open_sides);
+        assert_eq!(sides, 0, "{name}: {sides} sides do not have two faces");
+        let off = 100.0 * c.volume_off;
+        assert!(off < 0.5, "{name}: its volume is off by {off:.3} %");
     }
 }
 

@@ -2,26 +2,76 @@
 //!
 //! No convex decomposition happens at run time: the bake cut the body into convex cells, a crack only shares
 //! them out. Shapes serve contact alone; masses always come from the exact pieces.
+//!
+//! The hulls of a fragment follow what is drawn, also those of debris: a tip that a collider misses sinks into the floor.
 
-use frangible::internals::mesh::{bounds, box_of, merged_parts, thinned};
+use frangible::internals::mesh::{ConvexHull, bounds, box_of, merged_parts, thinned};
 use frangible::{Asset, Fragment};
-use rapier3d::geometry::{SharedShape, TypedShape};
+use rapier3d::geometry::SharedShape;
 use rapier3d::math::{Pose, Vector};
 
 use crate::config::{ColliderDetail, WorldConfig};
 use crate::fragments::replace::is_debris;
 
+/// Distance by which a collider may miss a point of its body, over the body's longest side or the length unit, if that is longer.
+const TOLERANCE: f32 = 3e-3;
+
+/// Corners of a hull that tells whether a single one is enough.
+const COARSE: usize = 16;
+
+/// Volume of a hull that is no collider, m³: contacts of flat hulls have random normals.
+const LEAST_VOLUME: f32 = 1e-15;
+
 /// Smallest half extent of a stand-in box, m.
 const MIN_HALF_EXTENT: f32 = 2e-4;
 
-/// The collision shape that a world of this configuration gives a fragment, in the fragment frame.
+/// The collision shape that a world of this configuration gives a fragment, in the fragment frame: one hull where the fragment is debris or nearly
+/// convex, else the hulls of its shares of the cells, else a box.
 #[must_use]
 pub fn collision_shape(fragment: &Fragment, config: &WorldConfig) -> SharedShape {
-    if is_debris(fragment, config) {
-        debris_shape(fragment)
-    } else {
-        fragment_shape(fragment, config.hull_volume_ratio, config.fragment_collider)
+    let positions = &fragment.mesh.positions;
+    let (low, high) = bounds(positions);
+    let within = TOLERANCE * (high - low).max_element().max(config.length_unit);
+    let most = config.fragment_collider.hull_points.max(4);
+    let fills = |hull: &ConvexHull| {
+        let ratio = f64::from(config.hull_volume_ratio);
+        is_debris(fragment, config) || hull.volume() <= ratio * fragment.mass.volume
+    };
+    // A few corners tell most hollow pieces.
+    let coarse = ConvexHull::new(positions, most.min(COARSE), within).filter(fills);
+    let whole = coarse.and_then(|_| ConvexHull::new(positions, most, within));
+    if let Some(shape) = whole.filter(fills).as_ref().and_then(solid) {
+        return shape;
     }
+    let shares = fragment.cell_shares.iter().map(|(_, points)| &**points);
+    let parts = merged_parts(shares.collect(), config.fragment_collider.parts);
+    let hulls = hulls(parts, most, within);
+    compound(hulls.iter().filter_map(solid))
+        .or_else(|| solid(&ConvexHull::new(positions, most, within)?))
+        .unwrap_or_else(|| fitted_box(positions, fragment.mass.volume))
+}
+
+/// Hulls of convex parts. The points of one without a volume go to its nearest neighbour, so that no corner is left without a collider.
+fn hulls(parts: Vec<Vec<Vector>>, most: usize, within: f32) -> Vec<ConvexHull> {
+    let hull = |points: &[Vector]| ConvexHull::new(points, most, within).filter(has_volume);
+    let (mut all, mut flat) = (Vec::with_capacity(parts.len()), Vec::new());
+    for points in parts {
+        match hull(&points) {
+            Some(hull) => all.push((points, hull)),
+            None => flat.push(points),
+        }
+    }
+    let middle = |points: &[Vector]| points.iter().sum::<Vector>() / points.len().max(1) as f32;
+    for points in flat {
+        let at = middle(&points);
+        let away = |part: &(Vec<Vector>, ConvexHull)| middle(&part.0).distance_squared(at);
+        let nearest = all.iter_mut().min_by(|a, b| away(a).total_cmp(&away(b)));
+        if let Some((part, grown)) = nearest {
+            part.extend(points);
+            *grown = hull(part).unwrap_or_default();
+        }
+    }
+    all.into_iter().map(|(_, hull)| hull).collect()
 }
 
 /// A box, or a compound of the asset's cells, in the body frame.
@@ -32,61 +82,21 @@ pub(crate) fn whole_shape(asset: &Asset, detail: ColliderDetail) -> SharedShape 
     }
     let cells = asset.cells.iter().map(|cell| &*cell.points).collect();
     let parts = merged_parts(cells, detail.parts);
-    let hulls = parts.iter().filter_map(|points| hull(points, detail));
-    compound(hulls.map(|(shape, _)| shape))
-        .unwrap_or_else(|| fitted_box(&asset.fracture.positions, asset.mass.volume))
+    let hulls = parts.iter().filter_map(|points| {
+        let corners = thinned(points, detail.hull_points.max(4));
+        let hull = SharedShape::convex_hull(&corners)?;
+        Some(hull).filter(|hull| hull.mass_properties(1.0).mass() > LEAST_VOLUME)
+    });
+    compound(hulls).unwrap_or_else(|| fitted_box(&asset.fracture.positions, asset.mass.volume))
 }
 
-/// One hull where the piece is nearly convex, else the hulls of its shares of the cells, else a box.
-fn fragment_shape(
-    fragment: &Fragment,
-    hull_volume_ratio: f32,
-    detail: ColliderDetail,
-) -> SharedShape {
-    let positions = &fragment.mesh.positions;
-    let whole = hull(positions, detail);
-    if let Some((shape, volume)) = &whole
-        && *volume <= f64::from(hull_volume_ratio) * fragment.mass.volume
-    {
-        return shape.clone();
-    }
-    let shares = fragment.cell_shares.iter().map(|(_, points)| &**points);
-    let parts = merged_parts(shares.collect(), detail.parts);
-    let shares = parts.iter().filter_map(|points| hull(points, detail));
-    compound(shares.map(|(shape, _)| shape))
-        .or(whole.map(|(shape, _)| shape))
-        .unwrap_or_else(|| debris_shape(fragment))
+fn has_volume(hull: &ConvexHull) -> bool {
+    hull.volume() > f64::from(LEAST_VOLUME)
 }
 
-/// A box of the piece's volume in the proportions of its bounds.
-fn debris_shape(fragment: &Fragment) -> SharedShape {
-    fitted_box(&fragment.mesh.positions, fragment.mass.volume)
-}
-
-/// Convex hull and its volume, m³; `None` when the points have no volume.
-fn hull(points: &[Vector], detail: ColliderDetail) -> Option<(SharedShape, f64)> {
-    let points = thinned(points, detail.hull_points.max(4));
-    if points.len() < 4 {
-        return None;
-    }
-    let shape = SharedShape::convex_hull(&points)?;
-    let TypedShape::ConvexPolyhedron(polyhedron) = shape.as_typed_shape() else {
-        return None;
-    };
-    let corner = polyhedron.points();
-    let index = polyhedron.vertices_adj_to_face();
-    let mut volume = 0.0;
-    for face in polyhedron.faces() {
-        let first = face.first_vertex_or_edge as usize;
-        let ring = index.get(first..first + face.num_vertices_or_edges as usize)?;
-        let (&apex, rest) = ring.split_first()?;
-        let at = |i: u32| corner[i as usize].as_dvec3();
-        for pair in rest.windows(2) {
-            volume += at(apex).dot(at(pair[0]).cross(at(pair[1]))) / 6.0;
-        }
-    }
-    // Flat hulls make contacts with random normals; a hull without volume is no collider.
-    (volume.is_finite() && volume > 1e-15).then_some((shape, volume))
+fn solid(hull: &ConvexHull) -> Option<SharedShape> {
+    let hull = Some(hull).filter(|hull| has_volume(hull))?;
+    SharedShape::convex_mesh(hull.corners.clone(), &hull.triangles)
 }
 
 fn compound(shapes: impl Iterator<Item = SharedShape>) -> Option<SharedShape> {

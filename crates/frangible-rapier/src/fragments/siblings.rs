@@ -2,10 +2,13 @@
 //!
 //! The hulls of jagged pieces cut into each other by the depth of the jags, and shapes that touch exactly give
 //! contact directions that are rounding noise. Rapier would push such pairs apart at up to its corrective speed.
-//! Between siblings no more than [`crate::WorldConfig::overlap_relaxation`] × time step of an overlap is shown to
-//! the solver: the pair cannot come nearer, so nothing sinks; it creeps apart at about that speed, so nothing
+//! Of the overlap that siblings are born with, no more than [`crate::WorldConfig::overlap_relaxation`] × time step is
+//! shown to the solver: the pair cannot come nearer, so nothing sinks; it creeps apart at about that speed, so nothing
 //! explodes; it may part at any speed, so nothing sticks; and it ends at the true surfaces, so nothing hovers.
-//! Only overlap is softened, a blow between siblings is as hard as any.
+//! Only this overlap is softened: a blow between siblings is as hard as any, and one that is pressed into another
+//! comes out as of any other body.
+//!
+//! What is left of the overlap at birth is kept in the `user_data` of the contact manifold, and only there where there is any.
 
 use rapier3d::dynamics::RigidBodyHandle;
 use rapier3d::pipeline::{ContactModificationContext, PhysicsHooks};
@@ -94,13 +97,27 @@ impl Siblings {
         birth.filter(|b| b.handle == body)
     }
 
-    /// Step in which the younger of two siblings was born.
-    fn common_birth(&self, a: RigidBodyHandle, b: RigidBodyHandle) -> Option<u64> {
+    /// Relation of two siblings.
+    fn relation(&self, a: RigidBodyHandle, b: RigidBodyHandle) -> Option<Relation> {
         let (a, b) = (self.birth(a)?, self.birth(b)?);
         let rubble = a.parent == RUBBLE || b.parent == RUBBLE;
         let siblings = a.parent == b.parent || rubble && a.origin == b.origin;
-        siblings.then(|| a.step.max(b.step))
+        siblings.then(|| match self.step < a.step.max(b.step) + NEWBORN_STEPS {
+            true => Relation::Newborn,
+            false if rubble => Relation::Rubble,
+            false => Relation::Old,
+        })
     }
+}
+
+/// Relation of two siblings.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Relation {
+    /// Born just now: all their overlap is from birth.
+    Newborn,
+    /// One is a rubble, in which pieces may lie as they were born.
+    Rubble,
+    Old,
 }
 
 impl PhysicsHooks for Siblings {
@@ -108,19 +125,30 @@ impl PhysicsHooks for Siblings {
         let (Some(a), Some(b)) = (context.rigid_body1, context.rigid_body2) else {
             return;
         };
-        let Some(birth) = self.common_birth(a, b) else {
+        let Some(relation) = self.relation(a, b) else {
             return;
         };
         let Some(rigid) = context.rigid_mut() else {
             return;
         };
-        if self.step < birth + NEWBORN_STEPS {
+        if relation == Relation::Newborn {
             // The blow reaches a piece through its siblings, many contacts at once; Newton's restitution applied to
             // each of them can gain energy.
             *rigid.restitution = 0.0;
         }
+        let deepest = rigid.solver_contacts.iter().map(|c| -c.dist);
+        let overlap = deepest.fold(0.0, f32::max);
+        let known = f32::from_bits(*rigid.user_data);
+        let of_birth = match relation {
+            Relation::Newborn | Relation::Rubble => overlap,
+            Relation::Old => known.min(overlap),
+        };
+        if relation == Relation::Newborn || known > 0.0 {
+            *rigid.user_data = (of_birth - self.relaxation).max(0.0).to_bits();
+        }
         for contact in rigid.solver_contacts.iter_mut() {
-            contact.dist = contact.dist.max(-self.relaxation);
+            let later = (-contact.dist - of_birth).max(0.0);
+            contact.dist = contact.dist.max(-later - self.relaxation);
         }
     }
 }

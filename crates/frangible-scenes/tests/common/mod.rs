@@ -1,5 +1,7 @@
 //! Bodies baked once per test program, and blows on them.
 
+pub(crate) mod drawn;
+
 use std::sync::{Arc, OnceLock};
 
 use frangible::glam::Vec3;
