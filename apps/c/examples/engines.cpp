@@ -93,8 +93,9 @@ int main(int count, char **words) try {
     Worst worst;
     std::printf("A ball hits the free pane in Bullet %d.%02d, with the library for C and the example\n"
                 "[apps/c/examples/bullet.hpp](../apps/c/examples/bullet.hpp), which asks before Bullet solves the contacts: means of a hundred seeds with\n"
-                "their standard errors. *The blow alone* is the same blow without an engine, and the motions just after it. Those in Bullet are a quarter\n"
-                "of a second later, when the ball has met some of the pieces again. Made by `cargo xtask c --engines`.\n\n",
+                "their standard errors. *The blow alone* is the same blow, and the ball's way through the pieces, without an engine. The motions in Bullet are\n"
+                "those a quarter of a second later: for so long Bullet leaves out contacts between the ball and the pieces. Made by\n"
+                "`cargo xtask c --engines`.\n\n",
                 BT_BULLET_VERSION / 100, BT_BULLET_VERSION % 100);
     std::printf("![A steel ball of 12 m/s goes through a pane in Bullet](engines/bullet-pane.jpg)\n\n"
                 "![A glass falls 1.2 m on stone in Bullet](engines/bullet-glass.jpg)\n\n");
