@@ -96,9 +96,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let page = page::page(&played);
     if std::env::args().any(|word| word == "--write") {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/engines.md");
-        // The section about Bullet, which `cargo xtask c --engines` writes, stays.
-        let kept = std::fs::read_to_string(&path).unwrap_or_default();
-        let kept = kept.find("\n## Bullet\n").map_or("", |at| &kept[at..]);
+        // What follows is not from here: what the example `passage` of Rapier measures, and the section that `cargo xtask c --engines` writes.
+        let whole = std::fs::read_to_string(&path).unwrap_or_default();
+        let kept = whole.find("\n## Later contacts\n");
+        let kept = kept.map_or("", |at| &whole[at..]);
         // Whole under its name, or not at all.
         let draft = path.with_extension("md.new");
         std::fs::write(&draft, page + kept)?;
