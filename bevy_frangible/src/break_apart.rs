@@ -5,7 +5,7 @@ use std::sync::Arc;
 use bevy::prelude::*;
 use bevy::tasks::{ComputeTaskPool, TaskPool};
 use frangible::internals::fracture_at;
-use frangible::{Body, Fracture, InputError, Outcome};
+use frangible::{Body, Fracture, ImpactReport, InputError, Outcome};
 
 use crate::again::{expect_pieces, expect_weaker};
 use crate::debris::remember;
@@ -77,6 +77,10 @@ impl From<Result<Outcome, InputError>> for Judged {
 impl Judged {
     pub(crate) fn broke(&self) -> bool {
         matches!(self.outcome, Ok(Outcome::Broke(_)))
+    }
+
+    pub(crate) fn report(&self) -> Option<&ImpactReport> {
+        self.outcome.as_ref().ok().map(Outcome::report)
     }
 }
 

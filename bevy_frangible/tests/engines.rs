@@ -26,8 +26,8 @@ fn a_throw_ends_in_avian_as_it_does_in_rapier() {
     let scene = throw(12.0);
     let mut sums = [0.0_f32; 2];
     for seed in 0..100 {
-        let rapier = in_rapier::run(&scene, seed).unwrap();
-        let avian = in_avian::run(&scene, seed);
+        let rapier = in_rapier::run(&scene, seed, 240.0).unwrap();
+        let avian = in_avian::run(&scene, seed, 240.0);
         println!("seed {seed}: {rapier:?}\n  in Avian {avian:?}");
         assert!(rapier.broke.is_some() && avian.broke.is_some());
         sums[0] -= rapier.striker.z;
@@ -35,14 +35,14 @@ fn a_throw_ends_in_avian_as_it_does_in_rapier() {
     }
     let [rapier, avian] = sums.map(|sum| sum / 100.0);
     println!("the ball goes on at {rapier} m/s in Rapier, {avian} m/s in Avian");
-    // 0.7 % apart at this speed (docs/engines.md; 7.8, 3.5 and -7.3 % at 4, 6 and 20 m/s). The blow and its cracks agree; the difference is in the
-    // ball's later contacts with the pieces.
-    assert!((avian / rapier - 1.0).abs() < 0.05, "{avian} {rapier}");
+    // Both move striker and pieces on with the velocities of the blow (docs/engines.md): what is left is the engines' rounding.
+    assert!((avian / rapier - 1.0).abs() < 0.005, "{avian} {rapier}");
 }
 
 /// Momentum stays over the step of the break, and the motion pays for the cracks.
 fn conserves(of: impl Fn(u64) -> Outcome) {
-    for seed in 0..4 {
+    // The last two leave large flat pieces that spin about axes aslant to those of the pane.
+    for seed in [0, 1, 2, 3, 31, 36] {
         let broke = of(seed).broke.expect("it breaks");
         let [before, after] = broke.momentum;
         let change = (after - before).length() / before.length();
@@ -57,7 +57,7 @@ fn conserves(of: impl Fn(u64) -> Outcome) {
 fn rapier_keeps_momentum_over_a_break_and_pays_for_its_cracks() {
     for speed in [12.0, 25.0] {
         let scene = throw(speed);
-        conserves(|seed| in_rapier::run(&scene, seed).unwrap());
+        conserves(|seed| in_rapier::run(&scene, seed, 240.0).unwrap());
     }
 }
 
@@ -65,6 +65,6 @@ fn rapier_keeps_momentum_over_a_break_and_pays_for_its_cracks() {
 fn avian_keeps_momentum_over_a_break_and_pays_for_its_cracks() {
     for speed in [12.0, 25.0] {
         let scene = throw(speed);
-        conserves(|seed| in_avian::run(&scene, seed));
+        conserves(|seed| in_avian::run(&scene, seed, 240.0));
     }
 }

@@ -24,6 +24,7 @@ struct Thing { // a rigid body, in its principal axes, which `axes` turns to the
     bool is_ball() const { return shape->getShapeType() == SPHERE_SHAPE_PROXYTYPE; }
     btVector3 velocity(const btVector3 &place) const { return rigid->getVelocityInLocalPoint(place - rigid->getCenterOfMassPosition()); }
 };
+struct Passing { Thing *piece, *ball; double left; }; // that leave each other alone, for so long, s
 struct Blow { Thing *body; std::vector<frangible_contact> contacts; std::vector<Thing *> by; };
 
 struct Game {
@@ -33,6 +34,7 @@ struct Game {
     btSequentialImpulseConstraintSolver solver;
     btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
     std::vector<std::unique_ptr<Thing>> things;
+    std::vector<Passing> passing;
     std::vector<frangible::Outcome> outcomes; // own the meshes of the pieces
     frangible_report report = frangible::sized<frangible_report>(); // of the last break
     btVector3 impulse{0, 0, 0};                                     // and that of the blow on the body, N s
@@ -45,6 +47,8 @@ struct Game {
     ~Game() { while (!things.empty()) remove(things.back().get()); }
     void remove(Thing *thing) {
         world.removeRigidBody(thing->rigid.get());
+        for (size_t k = passing.size(); k-- > 0;)
+            if (passing[k].piece == thing || passing[k].ball == thing) passing.erase(passing.begin() + std::ptrdiff_t(k));
         for (size_t k = things.size(); k-- > 0;) if (things[k].get() == thing) things.erase(things.begin() + std::ptrdiff_t(k));
     }
     Thing *add(std::unique_ptr<Thing> thing, double mass, const btVector3 &moments, const btTransform &at, const frangible_motion &motion) {
@@ -75,7 +79,14 @@ struct Game {
         }
         return add(std::move(thing), solid.mass, vec(solid.moments), at, motion);
     }
+    void pass(double dt) {
+        for (size_t k = passing.size(); k-- > 0;) if ((passing[k].left -= dt) < 0) {
+            passing[k].piece->rigid->setIgnoreCollisionCheck(passing[k].ball->rigid.get(), false);
+            passing.erase(passing.begin() + std::ptrdiff_t(k));
+        }
+    }
     void look(btScalar dt) {
+        pass(dt);
         world.performDiscreteCollisionDetection();
         std::vector<Thing *> all;
         for (auto &thing : things) all.push_back(thing.get());
@@ -142,27 +153,34 @@ struct Game {
         frangible::Outcome outcome = ask<frangible_outcome>(frangible_body_impact, blow.body->body, blow.contacts.data(),
                                                             blow.contacts.size(), by.data(), by.size(), &pose);
         const auto found = ask<frangible_report>(frangible_outcome_report, outcome);
-        if (found.broke) { // of several strikers that give way, only the first is moved here
-            std::vector<frangible_pose> poses(found.fragments);
-            std::vector<frangible_motion> motions(found.fragments);
-            const frangible_motion before = motion(*blow.body);
-            const auto after = ask<frangible_motion>(frangible_outcome_motions, outcome, &pose, &before, by.data(), poses.data(), motions.data(),
-                                                     found.fragments);
-            impulse = at.getBasis() * vec(found.impulse);
-            report = found;
-            if (by[0].kind != FRANGIBLE_STRIKER_FIXED) {
-                blow.by[0]->rigid->setLinearVelocity(vec(after.linear));
-                blow.by[0]->rigid->setAngularVelocity(vec(after.angular));
+        if (!found.broke && !found.contacts) return; // a bound has refused it: Bullet's own contact counts
+        const size_t count = found.broke ? found.fragments : 1;
+        std::vector<frangible_pose> poses(count);
+        std::vector<frangible_motion> motions(count);
+        const frangible_motion before = motion(*blow.body);
+        // Of several strikers that give way, only the first is moved here.
+        const auto after =
+            ask<frangible_motion>(frangible_outcome_motions, outcome, &pose, &before, by.data(), poses.data(), motions.data(), count);
+        if (by[0].kind != FRANGIBLE_STRIKER_FIXED) move(*blow.by[0], after);
+        if (!found.broke) return move(*blow.body, motions[0]);
+        impulse = at.getBasis() * vec(found.impulse);
+        report = found;
+        for (size_t k = 0; k < found.fragments; k++) {
+            const auto solid = ask<frangible_solid>(frangible_outcome_solid, outcome, k);
+            const auto hulls = ask<frangible_hulls>(frangible_outcome_hulls, outcome, k);
+            Thing *piece = add(solid, hulls, blow.body->surface, btTransform(at.getRotation(), vec(poses[k].position)), motions[k]);
+            piece->drawn = ask<frangible_geometry>(frangible_outcome_geometry, outcome, k);
+            if (blow.by[0]->is_ball()) { // what a ball meets of the pieces is in the motions
+                piece->rigid->setIgnoreCollisionCheck(blow.by[0]->rigid.get(), true);
+                passing.push_back({piece, blow.by[0], 0.25});
             }
-            for (size_t k = 0; k < found.fragments; k++) {
-                const auto solid = ask<frangible_solid>(frangible_outcome_solid, outcome, k);
-                const auto hulls = ask<frangible_hulls>(frangible_outcome_hulls, outcome, k);
-                Thing *piece = add(solid, hulls, blow.body->surface, btTransform(at.getRotation(), vec(poses[k].position)), motions[k]);
-                piece->drawn = ask<frangible_geometry>(frangible_outcome_geometry, outcome, k);
-            }
-            remove(blow.body);
-            outcomes.push_back(std::move(outcome));
         }
+        remove(blow.body);
+        outcomes.push_back(std::move(outcome));
+    }
+    static void move(Thing &thing, const frangible_motion &motion) {
+        thing.rigid->setLinearVelocity(vec(motion.linear));
+        thing.rigid->setAngularVelocity(vec(motion.angular));
     }
     btVector3 momentum() const { // of all that moves, N s
         btVector3 sum(0, 0, 0);

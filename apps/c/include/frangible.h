@@ -685,10 +685,13 @@ frangible_status frangible_outcome_piece(frangible_outcome outcome,
                                          frangible_body *out);
 
 /**
- * Computes where the fragments are and how they move after the break, and how the striker does. Momentum and angular momentum are conserved, and
- * energy does not increase. `pose` and `body` are the pose and the motion of the body just **before** the blow, without any response of the engine.
- * `striker` is the one that came, in world axes with its motion before the blow; null, or fixed, if it does not give way. `poses` and `motions` have
- * room for `count` fragments, which is their number; `poses` and `striker_after` may be null.
+ * Computes where the fragments are and how they move after the break, and how the striker does. A ball has flown through the fragments in its way.
+ * Momentum and angular momentum are conserved, and energy does not increase. `pose` and `body` are the pose and the motion of the body just **before**
+ * the blow, without any response of the engine. `striker` is the one that came, in world axes with its motion before the blow; null, or fixed, if it
+ * does not give way. `poses` and `motions` have room for `count` fragments, which is their number; `poses` and `striker_after` may be null.
+ *
+ * Of a body that **held** the blow, `count` is 1, and the row is that of the body. Leave the contact out of the engine's step then. A blow whose report
+ * has no contacts was refused by a bound, and changes nothing here: leave it to the engine.
  */
 frangible_status frangible_outcome_motions(frangible_outcome outcome,
                                            const frangible_pose *pose,

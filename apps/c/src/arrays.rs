@@ -2,8 +2,9 @@
 
 use std::sync::OnceLock;
 
-use frangible::glam::{DMat3, DQuat, DVec3};
+use frangible::glam::DQuat;
 use frangible::internals::MassProperties;
+use frangible::internals::rigid::principal_axes;
 use frangible::{Asset, Fragment};
 use frangible_js::plain::{Drawn, hulls_of_body, hulls_of_fragment};
 
@@ -105,7 +106,7 @@ impl Arrays {
 
 /// Masses as a struct.
 pub(crate) fn solid(mass: &MassProperties, supported: bool) -> frangible_solid {
-    let (moments, axes) = principal(mass.inertia);
+    let (moments, axes) = principal_axes(mass.inertia);
     frangible_solid {
         supported: supported.into(),
         mass: mass.mass,
@@ -113,30 +114,7 @@ pub(crate) fn solid(mass: &MassProperties, supported: bool) -> frangible_solid {
         centre: mass.centre.to_array(),
         inertia: mass.inertia.to_cols_array(),
         moments: moments.to_array(),
-        axes: axes.to_array(),
+        axes: DQuat::from_mat3(&axes).normalize().to_array(),
         ..Default::default()
     }
-}
-
-/// Principal moments of an inertia, and the rotation from its principal axes, by Jacobi's method.
-fn principal(inertia: DMat3) -> (DVec3, DQuat) {
-    let (mut diagonal, mut axes) = (inertia, DMat3::IDENTITY);
-    // It converges quadratically: five rounds reach the rounding of f64.
-    for (p, q) in [(0, 1), (0, 2), (1, 2)].into_iter().cycle().take(15) {
-        let off = diagonal.col(p)[q];
-        if off == 0.0 {
-            continue;
-        }
-        let ratio = (diagonal.col(q)[q] - diagonal.col(p)[p]) / (2.0 * off);
-        let tangent = ratio.signum() / (ratio.abs() + ratio.hypot(1.0));
-        let cosine = 1.0 / tangent.hypot(1.0);
-        let sine = tangent * cosine;
-        let mut turn = DMat3::IDENTITY;
-        (turn.col_mut(p)[p], turn.col_mut(q)[q]) = (cosine, cosine);
-        (turn.col_mut(q)[p], turn.col_mut(p)[q]) = (sine, -sine);
-        diagonal = turn.transpose() * diagonal * turn;
-        axes *= turn;
-    }
-    let moments = DVec3::new(diagonal.x_axis.x, diagonal.y_axis.y, diagonal.z_axis.z);
-    (moments, DQuat::from_mat3(&axes).normalize())
 }

@@ -1,9 +1,11 @@
 //! Outcomes of blows: reports, fragments as flat arrays, their motions, and pieces that break again.
 #![expect(unsafe_code, reason = "exported functions take pointers")]
 
+use std::sync::Arc;
+
 use frangible::glam::{DMat3, DQuat, DVec3};
 use frangible::internals::outcome::ContactReport;
-use frangible::{Body, Fracture, Fragment, Outcome};
+use frangible::{Asset, Body, Fracture, Fragment, Outcome};
 use frangible_js::plain::{self, MOTION};
 
 use crate::arrays::{Arrays, Whose, solid};
@@ -20,7 +22,8 @@ use crate::types::{
 
 /// Outcome of a blow. Without fragments the body held.
 pub(crate) struct Came {
-    /// The body that broke.
+    asset: Arc<Asset>,
+    /// The body, if it broke.
     body: Option<Body>,
     margin: f64,
     fracture: Fracture,
@@ -43,6 +46,7 @@ impl Came {
                     body.set_state(*state).map_err(Failure::input)?;
                 }
                 Ok(Self {
+                    asset: Arc::clone(body.asset()),
                     body: None,
                     margin,
                     fracture: Fracture::new(Vec::new(), report),
@@ -50,6 +54,7 @@ impl Came {
                 })
             }
             Outcome::Broke(fracture) => Ok(Self {
+                asset: Arc::clone(body.asset()),
                 body: Some(body.clone()),
                 margin: 0.0,
                 arrays: fracture
@@ -248,10 +253,13 @@ pub unsafe extern "C" fn frangible_outcome_piece(
     })
 }
 
-/// Computes where the fragments are and how they move after the break, and how the striker does. Momentum and angular momentum are conserved, and
-/// energy does not increase. `pose` and `body` are the pose and the motion of the body just **before** the blow, without any response of the engine.
-/// `striker` is the one that came, in world axes with its motion before the blow; null, or fixed, if it does not give way. `poses` and `motions` have
-/// room for `count` fragments, which is their number; `poses` and `striker_after` may be null.
+/// Computes where the fragments are and how they move after the break, and how the striker does. A ball has flown through the fragments in its way.
+/// Momentum and angular momentum are conserved, and energy does not increase. `pose` and `body` are the pose and the motion of the body just **before**
+/// the blow, without any response of the engine. `striker` is the one that came, in world axes with its motion before the blow; null, or fixed, if it
+/// does not give way. `poses` and `motions` have room for `count` fragments, which is their number; `poses` and `striker_after` may be null.
+///
+/// Of a body that **held** the blow, `count` is 1, and the row is that of the body. Leave the contact out of the engine's step then. A blow whose report
+/// has no contacts was refused by a bound, and changes nothing here: leave it to the engine.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn frangible_outcome_motions(
     outcome: frangible_outcome,
@@ -266,14 +274,16 @@ pub unsafe extern "C" fn frangible_outcome_motions(
     entry(|| {
         let came = OUTCOMES.get(outcome.id)?;
         let fragments = &came.fracture.fragments;
-        if count != fragments.len() || fragments.is_empty() {
-            return Err(Failure::range(format!(
-                "`count` is {count}, and the outcome has {} fragments",
-                fragments.len()
-            )));
+        let held = fragments.is_empty();
+        if count != fragments.len().max(1) {
+            return Err(Failure::range(match held {
+                true => format!("`count` is {count}, and the body held: give 1, for the body"),
+                false => format!(
+                    "`count` is {count}, and the outcome has {} fragments",
+                    fragments.len()
+                ),
+            }));
         }
-        let broke = came.body.as_ref();
-        let broke = broke.ok_or_else(|| came.missing("fragment", 0, 0))?;
         // SAFETY: by the contract of the crate.
         let pose = unsafe { read_plain(pose, "pose") }?;
         // SAFETY: by the contract of the crate.
@@ -296,12 +306,20 @@ pub unsafe extern "C" fn frangible_outcome_motions(
         place.extend(turn.to_array());
         let before = [linear.to_array(), angular.to_array()].concat();
         let by = striker.as_deref().unwrap_or(&[]);
-        let rows = plain::motions(broke.asset(), &came.fracture, &place, &before, by);
+        let rows = match held {
+            true => plain::motions_held(&came.asset, &came.fracture.report, &place, &before, by),
+            false => plain::motions(&came.asset, &came.fracture, &place, &before, by),
+        };
         let (rows, _) = rows.as_chunks::<MOTION>();
         let after: Vec<frangible_motion> = rows.iter().map(of_row).collect();
         if let Some(poses) = poses {
-            let placed = fragments.iter().map(|f| placed(at, turn, f.mass.centre));
-            poses.write_all(&placed.collect::<Vec<_>>());
+            let mut all: Vec<frangible_pose> = (fragments.iter())
+                .map(|f| placed(at, turn, f.mass.centre))
+                .collect();
+            if held {
+                all.push(placed(at, turn, DVec3::ZERO));
+            }
+            poses.write_all(&all);
         }
         if let Some(place) = striker_after {
             place.write(after.get(count).copied().unwrap_or_default());

@@ -58,6 +58,42 @@ fn momentum_is_kept_over_a_break_and_energy_is_not_made() {
 }
 
 #[test]
+fn a_body_that_holds_moves_with_its_blow() {
+    let body = body(1);
+    let by = ball(2.0);
+    let outcome = hit(body, &[at_middle(2.0)], &by);
+    let found = report(outcome);
+    assert_eq!(
+        (found.broke, found.contacts),
+        (0, 1),
+        "the pane holds a blow"
+    );
+    let (still, mut after) = (frangible_motion::default(), frangible_motion::default());
+    let (mut pose, mut whole) = (AT_ORIGIN, frangible_motion::default());
+    sound(unsafe {
+        frangible_outcome_motions(
+            outcome, &AT_ORIGIN, &still, &by, &mut pose, &mut whole, 1, &mut after,
+        )
+    });
+    let (pane, ball) = (whole.linear[2], after.linear[2]);
+    // Of glass, 0.2 m × 0.2 m × 4 mm: 0.4 kg. It was hit in its middle, and the ball does not approach it any more.
+    assert!(
+        (0.13 * (ball + 2.0) + 0.4 * pane).abs() < 1e-3,
+        "{pane} {ball}"
+    );
+    assert!(pane < -0.1 && ball - pane > -1e-9, "{pane} {ball} m/s");
+    assert_eq!(pose.position, [0.0; 3]);
+    let status = unsafe {
+        let (to, none) = (&mut whole as *mut frangible_motion, null_mut());
+        frangible_outcome_motions(outcome, &AT_ORIGIN, &still, &by, none, to, 2, null_mut())
+    };
+    assert_eq!(status, frangible_status::Range);
+    assert!(text().contains("the body held: give 1"), "{}", text());
+    sound(frangible_outcome_free(outcome));
+    sound(frangible_body_free(body));
+}
+
+#[test]
 fn fragments_are_the_body_with_closed_surfaces() {
     let body = body(1);
     let outcome = hit(body, &[at_middle(12.0)], &ball(12.0));

@@ -128,7 +128,8 @@ export interface Outcome {
   fragments: Fragment[];
   /**
    * Computes the velocities of fragments and striker after the break. Momentum and angular momentum are conserved, and energy does not
-   * increase. Pass the velocities just **before** the collision, without the engine's own collision response. Defined only if the body broke.
+   * increase. Pass the velocities just **before** the collision, without the engine's own collision response. A ball has flown through the
+   * fragments in its way: let the engine ignore contacts between the two for 0.25 s. Defined only if the body broke.
    */
   motions?(before: {
     pose?: Pose;

@@ -2,9 +2,14 @@
 
 use frangible::glam::{DMat3, DQuat, DVec3, Vec3};
 use frangible::internals::mesh::{merged_parts, thinned};
-use frangible::internals::rigid::{Kick, Rigid, nearest_first, take_blow, take_energy};
-use frangible::internals::{Fields, RenderMesh, box_projection};
-use frangible::{Asset, Breakable, Contact, Fracture, Fragment, InputError, Striker, TriMesh};
+use frangible::internals::outcome::ContactReport;
+use frangible::internals::rigid::{
+    Kick, Rigid, fly_through, nearest_first, take_blow, take_energy, take_held,
+};
+use frangible::internals::{Fields, MassProperties, RenderMesh, box_projection};
+use frangible::{
+    Asset, Breakable, Contact, Fracture, Fragment, ImpactReport, InputError, Striker, TriMesh,
+};
 
 /// Numbers of a contact: point, direction of the push (m, body frame), speed of approach (m/s), one over the striker's mass at the contact
 /// (1/kg), its radius of curvature (m), plane-strain modulus (Pa), crushing pressure (Pa), coefficient of restitution; then of a scripted push
@@ -228,9 +233,71 @@ fn hulls(parts: Vec<&[Vec3]>) -> Vec<Vec<f32>> {
         .collect()
 }
 
+/// A body in the world: its pose, its motion just before a blow, and whether it is held.
+struct Placed {
+    at: DVec3,
+    axes: DMat3,
+    linear: DVec3,
+    angular: DVec3,
+    held: bool,
+}
+
+impl Placed {
+    fn new(asset: &Asset, pose: &[f64], motion: &[f64]) -> Self {
+        Self {
+            at: double(pose),
+            axes: DMat3::from_quat(DQuat::from_array([3, 4, 5, 6].map(|i| pose[i]))),
+            linear: double(motion),
+            angular: double(&motion[3..]),
+            held: asset.is_supported(),
+        }
+    }
+
+    /// A part of the body, as it moves with it. `holds`: true for one that is held where the body is.
+    fn part(&self, mass: &MassProperties, holds: bool) -> Rigid {
+        let centre = self.at + self.axes * mass.centre;
+        if holds && self.held {
+            return Rigid::immovable([centre, DVec3::ZERO, DVec3::ZERO]);
+        }
+        let inertia = self.axes * mass.inertia * self.axes.transpose();
+        let [linear, angular] = if self.held {
+            [DVec3::ZERO; 2]
+        } else {
+            let moving = self.linear + self.angular.cross(centre - self.at);
+            [moving, self.angular]
+        };
+        Rigid::free(mass.mass, inertia, [centre, linear, angular])
+    }
+
+    /// Impulses of a blow, at their places in the world.
+    fn pushes(&self, report: &ImpactReport) -> Vec<(DVec3, DVec3)> {
+        let push = |c: &ContactReport| {
+            let [place, normal] = [c.point, c.normal].map(|v| self.axes * v.as_dvec3());
+            (self.at + place, normal * c.impulse)
+        };
+        report.contacts.iter().map(push).collect()
+    }
+}
+
+/// A striker of [`STRIKER`] numbers; none of no numbers.
+fn striker_of(row: &[f64]) -> Vec<Rigid> {
+    match row {
+        [] => Vec::new(),
+        row => vec![Rigid::free(
+            row[0],
+            DMat3::from_cols(double(&row[4..]), double(&row[7..]), double(&row[10..])),
+            [double(&row[1..]), double(&row[13..]), double(&row[16..])],
+        )],
+    }
+}
+
+fn motion_of(body: &Rigid) -> Vec<f64> {
+    [body.linear.to_array(), body.angular.to_array()].concat()
+}
+
 /// Computes the motions after a break: a row of [`MOTION`] numbers for each fragment, and one for the striker if there is one. `pose` and `motion`
-/// are those of the body just before the break; `striker` has [`STRIKER`] numbers or is empty. Momentum and angular momentum are conserved;
-/// energy does not increase.
+/// are those of the body just before the break; `striker` has [`STRIKER`] numbers or is empty. A ball has flown through the fragments in its way.
+/// Momentum and angular momentum are conserved; energy does not increase.
 #[must_use]
 pub fn motions(
     asset: &Asset,
@@ -239,50 +306,18 @@ pub fn motions(
     motion: &[f64],
     striker: &[f64],
 ) -> Vec<f64> {
-    let (at, turn) = (
-        double(pose),
-        DQuat::from_array([3, 4, 5, 6].map(|i| pose[i])),
-    );
-    let axes = DMat3::from_quat(turn);
-    let [linear, angular] = [double(motion), double(&motion[3..])];
-    let held = asset.is_supported();
-    let contacts = &fracture.report.contacts;
-    let points: Vec<Vec3> = contacts.iter().map(|c| c.point).collect();
+    let body = Placed::new(asset, pose, motion);
+    let points: Vec<Vec3> = fracture.report.contacts.iter().map(|c| c.point).collect();
     let order = nearest_first(fracture, &points);
-    let piece = |&number: &usize| {
-        let fragment = &fracture.fragments[number];
-        let centre = at + axes * fragment.mass.centre;
-        let moving = linear + angular.cross(centre - at);
-        if fragment.supported && held {
-            return Rigid::immovable([centre, DVec3::ZERO, DVec3::ZERO]);
-        }
-        let inertia = axes * fragment.mass.inertia * axes.transpose();
-        let motion = if held {
-            [DVec3::ZERO; 2]
-        } else {
-            [moving, angular]
-        };
-        Rigid::free(fragment.mass.mass, inertia, [centre, motion[0], motion[1]])
-    };
-    let mut bodies: Vec<Rigid> = order.iter().map(piece).collect();
-    let mut others: Vec<Rigid> = match striker {
-        [] => Vec::new(),
-        row => vec![Rigid::free(
-            row[0],
-            DMat3::from_cols(double(&row[4..]), double(&row[7..]), double(&row[10..])),
-            [double(&row[1..]), double(&row[13..]), double(&row[16..])],
-        )],
-    };
-    let push = |c: &frangible::internals::outcome::ContactReport| {
-        let [place, normal] = [c.point, c.normal].map(|v| axes * v.as_dvec3());
-        (at + place, normal * c.impulse)
-    };
-    let pushes: Vec<(DVec3, DVec3)> = contacts.iter().map(push).collect();
+    let fragments = order.iter().map(|&number| &fracture.fragments[number]);
+    let mut bodies: Vec<Rigid> = fragments.map(|f| body.part(&f.mass, f.supported)).collect();
+    let mut others = striker_of(striker);
+    let pushes = body.pushes(&fracture.report);
     let about = Rigid::together(&others).centre;
     let taken = Kick::about(about, &pushes).scaled(-1.0);
     let lost = take_blow(
         fracture,
-        (&order, axes),
+        (&order, body.axes),
         &mut bodies,
         &mut others,
         &pushes,
@@ -294,15 +329,37 @@ pub fn motions(
         bodies.push(Rigid::earth());
     }
     take_energy(&mut bodies, fracture.report.fracture_energy - lost);
+    let (pieces, by) = bodies.split_at_mut(count);
+    fly_through(fracture, (&order, body.axes, body.at), pieces, by);
     let mut rows = vec![0.0; MOTION * count];
-    let numbers = |body: &Rigid| [body.linear.to_array(), body.angular.to_array()].concat();
     for (&number, body) in order.iter().zip(&bodies) {
-        rows[MOTION * number..][..MOTION].copy_from_slice(&numbers(body));
+        rows[MOTION * number..][..MOTION].copy_from_slice(&motion_of(body));
     }
     if !striker.is_empty() {
-        rows.extend(numbers(&bodies[count]));
+        rows.extend(motion_of(&bodies[count]));
     }
     rows
+}
+
+/// Computes the motions after a blow that a body has withstood, like [`motions`]: a row for the body, and one for the striker if there is one. A blow
+/// that a bound has refused has no contacts in its report, and changes nothing: there the engine's own contact counts.
+#[must_use]
+pub fn motions_held(
+    asset: &Asset,
+    report: &ImpactReport,
+    pose: &[f64],
+    motion: &[f64],
+    striker: &[f64],
+) -> Vec<f64> {
+    let body = Placed::new(asset, pose, motion);
+    let mass = MassProperties {
+        centre: DVec3::ZERO,
+        ..asset.mass
+    };
+    let (mut whole, mut by) = (body.part(&mass, true), striker_of(striker));
+    take_held(&mut whole, &mut by, &body.pushes(report));
+    let all = std::iter::once(&whole).chain(&by);
+    all.flat_map(motion_of).collect()
 }
 
 /// Transforms rows of contacts from world axes to the frame of a body at this [`POSE`].

@@ -12,7 +12,7 @@ use bevy_frangible::frangible::glam::{self, DVec3};
 use bevy_frangible::frangible::{Fracture, Material};
 use bevy_frangible::prelude::*;
 
-use super::scenes::{Break, GRAVITY, Outcome, RATE, Scene, Solid, Start, Striker};
+use super::scenes::{Break, GRAVITY, Outcome, Scene, Solid, Start, Striker};
 
 /// The first break.
 #[derive(Resource, Default)]
@@ -59,9 +59,9 @@ fn motion(app: &mut App) -> (f64, DVec3) {
     (energy, momentum)
 }
 
-fn app(floor: bool) -> App {
+fn app(floor: bool, rate: f32) -> App {
     let mut app = App::new();
-    let step = Duration::from_secs_f32(1.0 / RATE);
+    let step = Duration::from_secs_f32(1.0 / rate);
     let down = Vec3::NEG_Y * if floor { GRAVITY } else { 0.0 };
     app.add_plugins((MinimalPlugins, AssetPlugin::default()))
         .add_plugins((TransformPlugin, MeshPlugin))
@@ -79,9 +79,9 @@ fn app(floor: bool) -> App {
     app
 }
 
-/// Plays a scene.
-pub fn run(scene: &Scene, seed: u64) -> Outcome {
-    let mut app = app(scene.floor.is_some());
+/// Plays a scene, with so many steps per second.
+pub fn run(scene: &Scene, seed: u64, rate: f32) -> Outcome {
+    let mut app = app(scene.floor.is_some(), rate);
     if let Some(floor) = &scene.floor {
         let half_space = Collider::half_space(Vec3::Y);
         app.world_mut()
@@ -117,7 +117,7 @@ pub fn run(scene: &Scene, seed: u64) -> Outcome {
         app.world_mut().spawn(bundle).id()
     });
     let mut broke = None;
-    for _ in 0..(scene.seconds * RATE) as usize {
+    for _ in 0..(scene.seconds * rate) as usize {
         let before = motion(&mut app);
         app.update();
         if broke.is_none()

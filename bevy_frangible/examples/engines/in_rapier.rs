@@ -7,7 +7,7 @@ use frangible_rapier::rapier3d::geometry::SharedShape;
 use frangible_rapier::rapier3d::math::{Pose, Vector};
 use frangible_rapier::{BreakableWorld, SurfaceProperties, WorldConfig, WorldError};
 
-use super::scenes::{Break, GRAVITY, Outcome, RATE, Scene, Solid, Start, Striker};
+use super::scenes::{Break, GRAVITY, Outcome, Scene, Solid, Start, Striker};
 
 fn pose(start: &Start) -> Pose {
     Pose::from_parts(start.at, start.turn)
@@ -18,13 +18,13 @@ fn motion(world: &BreakableWorld) -> (f64, DVec3) {
     (world.kinetic_energy(), world.momentum())
 }
 
-/// Plays a scene.
+/// Plays a scene, with so many steps per second.
 ///
 /// # Errors
 /// An error of the world.
-pub fn run(scene: &Scene, seed: u64) -> Result<Outcome, WorldError> {
+pub fn run(scene: &Scene, seed: u64, rate: f32) -> Result<Outcome, WorldError> {
     let mut config = WorldConfig::plain();
-    (config.gravity, config.dt) = (Vector::ZERO, 1.0 / RATE);
+    (config.gravity, config.dt) = (Vector::ZERO, 1.0 / rate);
     let mut world = BreakableWorld::new(config)?;
     if let Some(floor) = &scene.floor {
         world.physics.gravity = Vector::NEG_Y * GRAVITY;
@@ -54,7 +54,7 @@ pub fn run(scene: &Scene, seed: u64) -> Result<Outcome, WorldError> {
         }
     };
     let mut broke = None;
-    for _ in 0..(scene.seconds * RATE) as usize {
+    for _ in 0..(scene.seconds * rate) as usize {
         let before = motion(&world);
         world.step()?;
         if let (Some(event), None) = (world.breaks().first(), &broke) {

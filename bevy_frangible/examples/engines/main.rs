@@ -1,6 +1,7 @@
 //! Two physics engines play equal scenes: `cargo run --release --example engines [-- --write]` plays each with a hundred seeds in Rapier and in
 //! Avian, and prints a page of the outcomes, or writes it to `docs/engines.md`.
 
+mod alone;
 mod in_avian;
 mod in_rapier;
 mod page;
@@ -14,13 +15,20 @@ use bevy_frangible::frangible::glam::Quat;
 use bevy_frangible::frangible::{Asset, Breakable, Material};
 use frangible_bake::{BakeSpec, Region, Shape, Support, bake};
 
-use scenes::{Outcome, Scene, ball_on_pane, brick_on_plate, dropped};
+use scenes::{Outcome, RATES, Scene, ball_on_pane, brick_on_plate, dropped};
 
 /// Seeds of each scene.
 const SEEDS: u64 = 100;
 
-/// Outcomes of a scene in Rapier and in Avian, one for each seed.
-type Played = [Vec<Outcome>; 2];
+/// Outcomes of a scene, one for each seed.
+#[derive(Default)]
+struct Played {
+    /// In Rapier and in Avian, with the most steps per second.
+    engines: [Vec<Outcome>; 2],
+    /// What a ball loses, m/s: without an engine; and in each engine with each number of steps per second. Empty in other scenes.
+    alone: Vec<f64>,
+    lost: [[Vec<f64>; RATES.len()]; 2],
+}
 
 fn kind(spec: &BakeSpec) -> Result<Breakable, Box<dyn Error>> {
     Ok(FrangibleAsset::new(bake(spec, &mut |_| {})?.0)?.0)
@@ -54,8 +62,26 @@ fn all() -> Result<Vec<Scene>, Box<dyn Error>> {
 fn play(scene: &Scene) -> Result<Played, Box<dyn Error>> {
     let mut played = Played::default();
     for seed in 0..SEEDS {
-        played[0].push(in_rapier::run(scene, seed)?);
-        played[1].push(in_avian::run(scene, seed));
+        let alone = alone::lost(scene, seed)?;
+        played.alone.extend(alone);
+        for (k, rate) in RATES.into_iter().enumerate() {
+            let last = k + 1 == RATES.len();
+            if alone.is_none() && !last {
+                continue;
+            }
+            let outcomes = [
+                in_rapier::run(scene, seed, rate)?,
+                in_avian::run(scene, seed, rate),
+            ];
+            for (engine, outcome) in outcomes.into_iter().enumerate() {
+                if alone.is_some() {
+                    played.lost[engine][k].extend(scene.lost(&outcome));
+                }
+                if last {
+                    played.engines[engine].push(outcome);
+                }
+            }
+        }
     }
     Ok(played)
 }
@@ -70,9 +96,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let page = page::page(&played);
     if std::env::args().any(|word| word == "--write") {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/engines.md");
-        // The section about Bullet, which `cargo xtask c --engines` writes, stays.
-        let kept = std::fs::read_to_string(&path).unwrap_or_default();
-        let kept = kept.find("\n## Bullet\n").map_or("", |at| &kept[at..]);
+        // What follows is not from here: what the example `passage` of Rapier measures, and the section that `cargo xtask c --engines` writes.
+        let whole = std::fs::read_to_string(&path).unwrap_or_default();
+        let kept = whole.find("\n## Later contacts\n");
+        let kept = kept.map_or("", |at| &whole[at..]);
         // Whole under its name, or not at all.
         let draft = path.with_extension("md.new");
         std::fs::write(&draft, page + kept)?;

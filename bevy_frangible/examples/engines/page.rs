@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::scenes::{Break, Outcome, Scene};
+use crate::scenes::{Break, Outcome, RATES, Scene};
 use crate::{Played, SEEDS};
 
 /// Mean and standard error of the mean.
@@ -31,7 +31,7 @@ fn shown((mean, error): (f64, f64)) -> String {
 /// A row: name of the quantity, its value in both engines, and the share by which Avian's is larger.
 fn row(out: &mut String, what: &str, played: &Played, of: impl Fn(&Outcome) -> Option<f64>) {
     let [rapier, avian] = [0, 1].map(|k: usize| {
-        let values: Vec<f64> = played[k].iter().filter_map(&of).collect();
+        let values: Vec<f64> = played.engines[k].iter().filter_map(&of).collect();
         mean(&values)
     });
     let more = 100.0 * (avian.0 / rapier.0 - 1.0);
@@ -52,7 +52,7 @@ fn scene(out: &mut String, scene: &Scene, played: &Played) {
         "## {}\n\n| | Rapier | Avian | difference |\n|---|---|---|---|",
         scene.name
     );
-    let count = |k: usize| breaks(&played[k]).count();
+    let count = |k: usize| breaks(&played.engines[k]).count();
     let _ = writeln!(out, "| broke, of {SEEDS} | {} | {} | |", count(0), count(1));
     let of = |f: fn(&Break) -> f64| move |o: &Outcome| o.broke.as_ref().map(f);
     row(out, "pieces", played, of(|b| b.pieces as f64));
@@ -71,11 +71,9 @@ fn scene(out: &mut String, scene: &Scene, played: &Played) {
         row(out, "speed of the striker at the end, m/s", played, |o| {
             Some(f64::from(o.striker.dot(direction)))
         });
-        row(out, "what it has lost, m/s", played, |o| {
-            Some(f64::from((before - o.striker).dot(direction)))
-        });
+        row(out, "what it has lost, m/s", played, |o| scene.lost(o));
     }
-    let pairs = played[0].iter().zip(&played[1]);
+    let pairs = played.engines[0].iter().zip(&played.engines[1]);
     let same = pairs.filter(|(a, b)| match (&a.broke, &b.broke) {
         (Some(a), Some(b)) => a.pieces == b.pieces && a.first_crack == b.first_crack,
         (None, None) => true,
@@ -93,7 +91,7 @@ fn scene(out: &mut String, scene: &Scene, played: &Played) {
 fn conservation(played: &[(Scene, Played)], engine: usize) -> (f64, f64) {
     let (mut momentum, mut energy) = (0.0_f64, f64::NEG_INFINITY);
     for (scene, outcomes) in played {
-        for b in breaks(&outcomes[engine]) {
+        for b in breaks(&outcomes.engines[engine]) {
             let [before, after] = b.momentum;
             if scene.floor.is_some() {
                 continue;
@@ -106,15 +104,49 @@ fn conservation(played: &[(Scene, Played)], engine: usize) -> (f64, f64) {
     (momentum, energy)
 }
 
+/// What balls lose, without an engine and in both, with each number of steps per second.
+fn losses(out: &mut String, played: &[(Scene, Played)]) {
+    out.push_str(
+        "## What the ball loses\n\nThe loss of speed a quarter of a second after the throw, m/s, of all seeds, whether the pane broke or not. *The blow \
+         alone* is\nthat of the same blow, and of the ball's way through the pieces, without an engine. In the second row of each speed are the \
+         differences\nof the same seeds from it. For a quarter of a second after a blow the engines leave out contacts between the ball and the pieces in \
+         its way,\nunless one of them touches anything else. What the engines do when the ball meets pieces after that is not in this table.\n\n\
+         | | the blow alone |",
+    );
+    for engine in ["Rapier", "Avian"] {
+        for rate in RATES {
+            let _ = write!(out, " {engine}, {rate} steps per second |");
+        }
+    }
+    let _ = writeln!(out, "\n|{}", "---|".repeat(2 + 2 * RATES.len()));
+    for (scene, played) in played.iter().filter(|(_, p)| !p.alone.is_empty()) {
+        let (mean_alone, error) = mean(&played.alone);
+        let _ = write!(out, "| {} | {mean_alone:.2} ± {error:.2} |", scene.name);
+        for lost in played.lost.iter().flatten() {
+            let (mean, error) = mean(lost);
+            let _ = write!(out, " {mean:.2} ± {error:.2} |");
+        }
+        out.push_str("\n| | |");
+        for lost in played.lost.iter().flatten() {
+            let pairs = lost.iter().zip(&played.alone);
+            let (mean, error) = mean(&pairs.map(|(a, b)| a - b).collect::<Vec<_>>());
+            let _ = write!(out, " {mean:+.3} ± {error:.3} |");
+        }
+        out.push('\n');
+    }
+    out.push('\n');
+}
+
 /// The whole page.
 pub fn page(played: &[(Scene, Played)]) -> String {
     let mut out = String::from(
         "# Three physics engines\n\nThe same bodies, strikers and speeds in Rapier 0.36 (`frangible-rapier`, which undoes the step of a break and takes it \
          again) and in Avian 0.7\n(`bevy_frangible`, which asks before the contacts are solved), 240 steps per second, a hundred seeds each: means with \
-         their standard errors. The\nfracture is the same library in both; what differs is where and when an engine says that bodies touch, \
-         and how the pieces meet the striker\nafterwards. Made by `cargo run --release --example engines -- --write` in `bevy_frangible`. The third \
-         engine is [Bullet](#bullet), at the end.\n\n",
+         their standard errors. The\nfracture is the same library in both, and so are the velocities after a blow. What differs is where and when an \
+         engine says that bodies touch, and\nhow the pieces meet each other and anything else afterwards. Made by `cargo run --release --example engines -- --write` in \
+         `bevy_frangible`.\nThe third engine is [Bullet](#bullet), at the end.\n\n",
     );
+    losses(&mut out, played);
     for (s, outcomes) in played {
         scene(&mut out, s, outcomes);
     }

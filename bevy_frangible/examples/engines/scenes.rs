@@ -3,8 +3,8 @@
 use bevy_frangible::frangible::glam::{DVec3, Quat, Vec3};
 use bevy_frangible::frangible::{Breakable, Fracture, Material};
 
-/// Steps per second in both engines.
-pub const RATE: f32 = 240.0;
+/// Steps per second in both engines: the last one counts where only one does.
+pub const RATES: [f32; 3] = [60.0, 120.0, 240.0];
 
 /// Acceleration of gravity in scenes that have it, m/s².
 pub const GRAVITY: f32 = 9.81;
@@ -95,6 +95,16 @@ impl Break {
             energy: [before.0, after.0],
             momentum: [before.1, after.1],
         }
+    }
+}
+
+impl Scene {
+    /// What the striker has lost of its speed at the end, m/s.
+    pub fn lost(&self, outcome: &Outcome) -> Option<f64> {
+        let before = self.striker.as_ref()?.start.velocity;
+        Some(f64::from(
+            (before - outcome.striker).dot(before.normalize()),
+        ))
     }
 }
 

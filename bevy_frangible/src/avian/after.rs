@@ -2,19 +2,27 @@
 
 use std::collections::BTreeMap;
 use std::sync::PoisonError;
+use std::time::Duration;
 
 use avian3d::prelude::*;
 use bevy::prelude::*;
+use frangible::Fracture;
 use frangible::glam::{self, DMat3, DVec3};
-use frangible::internals::rigid::{Kick, Rigid, nearest_first, take_blow, take_energy};
+use frangible::internals::outcome::ContactReport;
+use frangible::internals::rigid::{
+    APART, Kick, Rigid, fly_through, nearest_first, take_blow, take_energy, take_held,
+};
 
 use super::plain::{double, piece, rigid, velocities};
-use super::{Moving, Ruling, Verdict, Verdicts};
-use crate::BreakableBody;
+use super::{Moving, Passages, Ruling, Verdict, Verdicts};
 use crate::break_apart::conclude;
 use crate::meshes::{into, out};
+use crate::{BreakableBody, FragmentOf};
 
-/// Bodies whose contact a break left out of the step, each with the share of the step until they touched and its position at the start of the step,
+/// Bodies nearer than this touch, m: Avian lists contacts that may come.
+const TOUCHES: f32 = 1e-4;
+
+/// Bodies whose contact was left out of the step, each with the share of the step until they touched and its position at the start of the step,
 /// m.
 struct Touches(BTreeMap<Entity, (f32, Vec3)>);
 
@@ -84,97 +92,73 @@ impl Motions<'_, '_, '_> {
     }
 }
 
-/// Gives every body that was hit its outcome.
-pub(super) fn carry_out(
-    mut commands: Commands,
-    verdicts: Res<Verdicts>,
-    mut bodies: Query<&mut BreakableBody>,
-    moving: Query<(&'static RigidBody, Moving)>,
-) {
-    let mut verdicts: Vec<Verdict> = {
-        let mut list = verdicts.0.lock().unwrap_or_else(PoisonError::into_inner);
-        std::mem::take(&mut *list)
-    };
-    // Pairs come in any order; a body's own break counts before those that held.
-    let broke = |v: &Verdict| match &v.ruling {
-        Ruling::Now(judged) | Ruling::Late(judged) => judged.broke(),
-        Ruling::Waits => false,
-    };
-    let inside = |v: &&Verdict| broke(v) && matches!(v.ruling, Ruling::Now(_));
-    let touches = Touches::new(verdicts.iter().filter(inside));
-    verdicts.sort_by_key(|v| (v.body, !broke(v), v.striker));
-    verdicts.dedup_by_key(|v| v.body);
-    // Two bodies that break each other would find one force, were it not for their other contacts and their cracks: the mean of their answers counts.
-    let met: Vec<(Entity, Option<Entity>)> = (verdicts.iter())
-        .filter(|v| broke(v))
-        .map(|v| (v.body, v.striker))
-        .collect();
-    let mut motions = Motions {
-        before: &moving,
-        touches: &touches,
-        now: BTreeMap::new(),
-        families: BTreeMap::new(),
-    };
-    for Verdict {
-        body: entity,
-        striker,
-        contacts,
-        ruling,
-        ..
-    } in verdicts
-    {
-        let (judged, late) = match ruling {
-            Ruling::Now(judged) => (judged, false),
-            Ruling::Late(judged) => (judged, true),
-            Ruling::Waits => continue,
+/// A blow that acts: on which body, by whom, and the share of it, since each of two breakable bodies gives its own answer.
+struct Blow {
+    body: Entity,
+    striker: Option<Entity>,
+    share: f64,
+    /// Place and rotation of the body at the blow.
+    at: Vec3,
+    rotation: Quat,
+}
+
+impl Blow {
+    /// The body's axes in the world.
+    fn axes(&self) -> DMat3 {
+        let axis = |v: glam::Vec3| double(into(self.rotation * out(v)));
+        DMat3::from_cols(
+            axis(glam::Vec3::X),
+            axis(glam::Vec3::Y),
+            axis(glam::Vec3::Z),
+        )
+    }
+
+    /// Impulses on the body, at their places in the world.
+    fn pushes(&self, contacts: &[ContactReport]) -> Vec<(DVec3, DVec3)> {
+        let (at, axes) = (double(into(self.at)), self.axes());
+        let push = |c: &ContactReport| {
+            let impulse = axes * c.normal.as_dvec3() * (self.share * c.impulse);
+            (at + axes * c.point.as_dvec3(), impulse)
         };
-        let (Ok(mut body), Ok((_, now)), Some(whole)) = (
-            bodies.get_mut(entity),
-            moving.get(entity),
-            motions.of(entity),
-        ) else {
-            continue;
+        contacts.iter().map(push).collect()
+    }
+
+    /// The body has held it.
+    fn act_on_whole(&self, contacts: &[ContactReport], motions: &mut Motions) {
+        let parts = motions.parts(self.striker);
+        let (Some(mut whole), mut others) = (motions.of(self.body), motions.all(&parts)) else {
+            return;
         };
-        let (at, rotation) = (touches.place(entity, now.0.0), now.1.0);
-        let pose = Transform::from_translation(at).with_rotation(rotation);
-        let Some((fracture, fragments)) = conclude(&mut commands, entity, &mut body, pose, judged)
-        else {
-            continue;
-        };
-        let points: Vec<glam::Vec3> = contacts.iter().map(|c| c.point).collect();
-        let order = nearest_first(&fracture, &points);
+        take_held(&mut whole, &mut others, &self.pushes(contacts));
+        if whole.gives_way() {
+            motions.set(&[self.body], &[whole]);
+        }
+        motions.set(&parts, &others);
+    }
+
+    /// The body has broken into these fragments. `whole`: its motion before; `alone`: neither it nor the striker touched anything else.
+    fn act_on_pieces(
+        &self,
+        (fracture, fragments): (&Fracture, &[Entity]),
+        (whole, alone): (&Rigid, bool),
+        points: &[glam::Vec3],
+        motions: &mut Motions,
+    ) {
+        let order = nearest_first(fracture, points);
         let pieces: Vec<Entity> = order.iter().map(|&i| fragments[i]).collect();
         let mut rigids: Vec<Rigid> = (order.iter().map(|&i| &fracture.fragments[i]))
             .map(|f| {
                 let supported = f.supported && !whole.gives_way();
-                piece(&f.mass, supported, &whole, rotation, at)
+                piece(&f.mass, supported, whole, self.rotation, self.at)
             })
             .collect();
-        let parts = motions.parts(striker);
+        let parts = motions.parts(self.striker);
         let mut others = motions.all(&parts);
-        let mirrored = striker.is_some_and(|s| met.contains(&(s, Some(entity))));
-        // A blow that the whole body has taken already has the engine's impulse.
-        let share = match (late, mirrored) {
-            (true, _) => 0.0,
-            (false, true) => 0.5,
-            (false, false) => 1.0,
-        };
-        let world = |v: glam::Vec3| double(into(rotation * out(v)));
-        let pushes: Vec<(DVec3, DVec3)> = (fracture.report.contacts.iter())
-            .map(|c| {
-                let place = double(into(at)) + world(c.point);
-                (place, world(c.normal) * (share * c.impulse))
-            })
-            .collect();
+        let (axes, pushes) = (self.axes(), self.pushes(&fracture.report.contacts));
         let about = Rigid::together(&others).centre;
         let taken = Kick::about(about, &pushes).scaled(-1.0);
-        let axes = DMat3::from_cols(
-            world(glam::Vec3::X),
-            world(glam::Vec3::Y),
-            world(glam::Vec3::Z),
-        );
         let lost = take_blow(
-            &fracture,
+            fracture,
             (&order, axes),
             &mut rigids,
             &mut others,
@@ -187,9 +171,113 @@ pub(super) fn carry_out(
             rigids.push(Rigid::earth());
         }
         take_energy(&mut rigids, fracture.report.fracture_energy - lost);
-        motions.set(&pieces, &rigids[..count]);
-        motions.set(&parts, &rigids[count..]);
-        motions.families.insert(entity, pieces);
+        let (rigids, others) = rigids.split_at_mut(count);
+        if alone {
+            let place = (&order[..], axes, double(into(self.at)));
+            fly_through(fracture, place, rigids, others);
+        }
+        motions.set(&pieces, rigids);
+        motions.set(&parts, others);
+        motions.families.insert(self.body, pieces);
+    }
+}
+
+/// Gives every body that was hit its outcome.
+pub(super) fn carry_out(
+    mut commands: Commands,
+    (verdicts, mut passages): (Res<Verdicts>, ResMut<Passages>),
+    mut bodies: Query<&mut BreakableBody>,
+    moving: Query<(&'static RigidBody, Moving)>,
+    (collisions, pieces): (Collisions, Query<&FragmentOf>),
+    time: Res<Time<Fixed>>,
+) {
+    let now = time.elapsed();
+    if !passages.0.is_empty() {
+        passages.0.retain(|&(striker, parent), until| {
+            let takes_part =
+                |e: Entity| e == striker || pieces.get(e).is_ok_and(|of| of.0 == parent);
+            *until > now && touch_nothing_else(&collisions, takes_part)
+        });
+    }
+    let mut verdicts: Vec<Verdict> = {
+        let mut list = verdicts.0.lock().unwrap_or_else(PoisonError::into_inner);
+        std::mem::take(&mut *list)
+    };
+    // Pairs come in any order; a body's own break counts before those that held.
+    let touches = Touches::new(verdicts.iter().filter(|v| v.left_out));
+    verdicts.sort_by_key(|v| (v.body, !broke(v), v.striker));
+    // Besides a body's first verdict, only blows that it has held act on it.
+    verdicts.dedup_by(|next, first| next.body == first.body && (broke(first) || !next.left_out));
+    // Two bodies that break each other would find one force, were it not for their other contacts and their cracks: the mean of their answers counts.
+    let met = |broken_too: bool, list: &[Verdict]| -> Vec<(Entity, Option<Entity>)> {
+        let acts = |v: &&Verdict| v.left_out || matches!(v.ruling, Ruling::Late(_));
+        let of = list
+            .iter()
+            .filter(acts)
+            .filter(|v| self::broke(v) == broken_too);
+        of.map(|v| (v.body, v.striker)).collect()
+    };
+    let (broken, held) = (met(true, &verdicts), met(false, &verdicts));
+    let mut motions = Motions {
+        before: &moving,
+        touches: &touches,
+        now: BTreeMap::new(),
+        families: BTreeMap::new(),
+    };
+    let mut concluded = None;
+    for verdict in verdicts {
+        let (judged, late) = match verdict.ruling {
+            Ruling::Now(judged) => (judged, false),
+            Ruling::Late(judged) => (judged, true),
+            Ruling::Waits => continue,
+        };
+        let (entity, striker) = (verdict.body, verdict.striker);
+        let (Ok(mut body), Ok((_, there)), Some(whole)) = (
+            bodies.get_mut(entity),
+            moving.get(entity),
+            motions.of(entity),
+        ) else {
+            continue;
+        };
+        let mirror = striker.map(|s| (s, Some(entity)));
+        let is_among = |list: &[_]| mirror.is_some_and(|mirror| list.contains(&mirror));
+        let same = if judged.broke() { &broken } else { &held };
+        let blow = Blow {
+            body: entity,
+            striker,
+            // A blow that the whole body has taken already has the engine's impulse.
+            share: match (late, is_among(same)) {
+                (true, _) => 0.0,
+                (false, true) => 0.5,
+                (false, false) => 1.0,
+            },
+            at: touches.place(entity, there.0.0),
+            rotation: there.1.0,
+        };
+        if let Some(report) = judged.report().filter(|_| verdict.left_out && !judged.broke())
+            // The other body has broken by this blow: its answer counts.
+            && !is_among(&broken)
+        {
+            blow.act_on_whole(&report.contacts, &mut motions);
+        }
+        if concluded.replace(entity) == Some(entity) {
+            continue;
+        }
+        let pose = Transform::from_translation(blow.at).with_rotation(blow.rotation);
+        let Some((fracture, fragments)) = conclude(&mut commands, entity, &mut body, pose, judged)
+        else {
+            continue;
+        };
+        let points: Vec<glam::Vec3> = verdict.contacts.iter().map(|c| c.point).collect();
+        let takes_part = |e: Entity| e == entity || Some(e) == striker;
+        let alone = blow.share == 1.0 && touch_nothing_else(&collisions, takes_part);
+        let made = (&*fracture, &fragments[..]);
+        blow.act_on_pieces(made, (&whole, alone), &points, &mut motions);
+        if let Some(striker) = striker.filter(|_| alone) {
+            passages
+                .0
+                .insert((striker, entity), now + Duration::from_secs_f64(APART));
+        }
     }
     for (entity, body) in &motions.now {
         commands.entity(*entity).try_insert(velocities(body));
@@ -202,5 +290,23 @@ pub(super) fn carry_out(
             let at = Position(touches.place(entity, now.0.0));
             commands.entity(entity).try_insert(at);
         }
+    }
+}
+
+/// Returns true if no body of these touches one that is none of them.
+fn touch_nothing_else(collisions: &Collisions, takes_part: impl Fn(Entity) -> bool) -> bool {
+    let touching = collisions.iter().filter(|pair| {
+        let mut points = pair.manifolds.iter().flat_map(|m| &m.points);
+        points.any(|p| p.penetration > -TOUCHES)
+    });
+    let mut inside =
+        touching.map(|pair| [pair.body1, pair.body2].map(|b| b.is_some_and(&takes_part)));
+    inside.all(|[a, b]| a == b)
+}
+
+fn broke(verdict: &Verdict) -> bool {
+    match &verdict.ruling {
+        Ruling::Now(judged) | Ruling::Late(judged) => judged.broke(),
+        Ruling::Waits => false,
     }
 }

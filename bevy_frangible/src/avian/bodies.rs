@@ -3,7 +3,9 @@
 use avian3d::prelude::*;
 use bevy::prelude::*;
 use frangible::Material;
+use frangible::glam::DQuat;
 use frangible::internals::MassProperties;
+use frangible::internals::rigid::principal_axes;
 
 use super::colliders::{ColliderDetail, of_fragment, whole};
 use super::plain::{piece, rigid, velocities};
@@ -203,14 +205,19 @@ pub(super) fn push(
     linear.0 += pushed.impulse * mass.inverse();
     angular.0 += inertia.rotated(rotation.0).inverse() * arm.cross(pushed.impulse);
 }
-/// Mass, centre and inertia of the piece itself, whatever its collider's volume.
-fn masses(mass: &MassProperties) -> impl Bundle {
-    let columns = mass.inertia.as_mat3().to_cols_array();
-    let tensor = AngularInertia::try_from_mat3(Mat3::from_cols_array(&columns))
-        .unwrap_or_else(|_| AngularInertia::from_mat3_unchecked(Mat3::from_cols_array(&columns)));
+
+/// Mass, centre and inertia of the piece itself, whatever its collider's volume. Avian's own conversion of a tensor takes one whose products of inertia are
+/// below 1e-5 kg·m² for a diagonal one: most pieces would turn about wrong axes, and have another energy.
+fn masses(mass: &MassProperties) -> impl Bundle + use<> {
+    let (moments, axes) = principal_axes(mass.inertia);
+    let frame = DQuat::from_mat3(&axes).normalize().as_quat();
+    let (moments, frame) = (moments.as_vec3().to_array(), frame.to_array());
     (
         Mass(mass.mass as f32),
-        tensor,
+        AngularInertia {
+            principal: Vec3::from_array(moments),
+            local_frame: Quat::from_array(frame),
+        },
         CenterOfMass::ZERO,
         NoAutoMass,
         NoAutoAngularInertia,

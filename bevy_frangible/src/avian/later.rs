@@ -210,6 +210,7 @@ pub(super) fn serve(
                 contacts: case.blow.contacts,
                 touched: 1.0,
                 began: [Vec3::ZERO; 2],
+                left_out: false,
                 ruling: Ruling::Late(judged),
             });
         }

@@ -1,10 +1,10 @@
 //! Bodies that break inside Avian's step.
 //!
 //! Avian calls its collision hooks for each pair of touching colliders, before it solves the contacts. There the impact on a breakable body
-//! is evaluated with the speeds before the solver. If the body breaks, the pair's contacts are dropped for this step, so that the striker
-//! keeps its velocity; after the step the pieces replace the body, the impulse of the blow acts between them and the striker, and the energy
-//! of the cracks is taken from the motion. No step has to be undone, but both are moved back to the point of contact, so that the striker
-//! meets the pieces from outside. With [`Breaking::AfterStep`] the hooks only record the blow.
+//! is evaluated with the speeds before the solver. If the blow was integrated, the pair's contacts are dropped for this step, so that the striker
+//! keeps its velocity; after the step the impulse of the blow acts between it and the body. If that broke, the pieces replace it, the energy of the
+//! cracks is taken from the motion, and a ball flies on through the pieces. No step has to be undone, but both are moved back to the point of
+//! contact. With [`Breaking::AfterStep`] the hooks only record the blow.
 
 mod after;
 mod bodies;
@@ -19,6 +19,7 @@ mod touches;
 
 use std::collections::BTreeMap;
 use std::sync::Mutex;
+use std::time::Duration;
 
 use avian3d::prelude::*;
 use bevy::prelude::*;
@@ -58,12 +59,14 @@ struct Verdict {
     touched: f32,
     /// Positions of the body and of the striker at the start of the step, m.
     began: [Vec3; 2],
+    /// The solver has left the pair out: the blow was integrated, and acts after the step.
+    left_out: bool,
     ruling: Ruling,
 }
 
 /// State of a blow.
 enum Ruling {
-    /// Judged inside the step. If the body broke, the solver has left the pair out.
+    /// Judged inside the step.
     Now(Judged),
     /// To be judged after the step.
     Waits,
@@ -74,6 +77,11 @@ enum Ruling {
 /// Colliders of the pieces of bodies that are about to break, where they are made already.
 #[derive(Resource, Default)]
 struct Molds(BTreeMap<Entity, Vec<Option<Collider>>>);
+
+/// Strikers that fly through the loose pieces of a body that broke, and until when at the latest, in the time of the fixed steps: what they meet there
+/// is part of the blow.
+#[derive(Resource, Default)]
+struct Passages(BTreeMap<(Entity, Entity), Duration>);
 
 /// A body as Avian moves it.
 type Moving = (
@@ -92,6 +100,7 @@ pub(crate) fn build(app: &mut App) {
         .init_resource::<ImpactSpeed>()
         .init_resource::<Breaking>()
         .init_resource::<Molds>()
+        .init_resource::<Passages>()
         .init_resource::<later::Docket>()
         .init_resource::<debris::Began>()
         .add_observer(bodies::give_collider)

@@ -1,9 +1,13 @@
 //! A striker that hits a pane goes on through it.
 
+use std::sync::Arc;
+
+use crate::common::baked::pane;
 use crate::common::{at, body, box_asset, slicer, unbreakable, world};
+use frangible::Breakable;
 use frangible::glam::Vec3;
 use frangible_rapier::rapier3d::math::Vector;
-use frangible_rapier::{Ball, SurfaceProperties};
+use frangible_rapier::{Ball, BreakableWorld, SurfaceProperties, WorldConfig};
 
 const PANE: Vec3 = Vec3::new(0.15, 0.15, 0.002);
 
@@ -48,5 +52,52 @@ fn a_ball_goes_on_through_the_pane_it_breaks() {
         assert!(z > 0.02, "the ball is at z = {z}");
         assert!(through > 0.6 * speed, "{speed} m/s fell to {through} m/s");
         assert!(bounced < 0.5 * through);
+    }
+}
+
+/// What a ball of steel of 0.1 kg has lost of its speed, m/s, 0.2 s after it could have met a baked pane, with so many steps per second.
+fn lost(pane: &Breakable, seed: u64, speed: f32, rate: f32) -> f64 {
+    let mut config = WorldConfig::plain();
+    (config.gravity, config.dt) = (Vector::ZERO, 1.0 / rate);
+    let mut world = BreakableWorld::new(config).unwrap();
+    world
+        .insert_breakable(
+            pane.body(seed),
+            at(0.0, 0.0, 0.0),
+            Vector::ZERO,
+            Vector::ZERO,
+        )
+        .unwrap();
+    let ball = Ball {
+        mass: 0.1,
+        radius: 0.0145,
+    };
+    let (start, velocity) = (at(0.01, 0.005, -0.1), Vector::Z * speed);
+    let ball = world
+        .insert_ball(ball, SurfaceProperties::STEEL, start, velocity)
+        .unwrap();
+    let mut broke = false;
+    for _ in 0..((0.2 + 0.1 / speed) * rate) as usize {
+        let (momentum, energy) = (world.momentum(), world.kinetic_energy());
+        broke |= !world.step().unwrap().is_empty();
+        let change = (world.momentum() - momentum).length();
+        assert!(change < 1e-5 * momentum.length(), "{change} N·s");
+        let made = world.kinetic_energy() - energy;
+        assert!(made < 1e-4 * energy, "{made} J were made");
+    }
+    assert!(broke, "seed {seed} holds at {speed} m/s");
+    f64::from(speed - world.physics.bodies[ball].linvel().z)
+}
+
+#[test]
+fn a_ball_loses_the_same_whatever_the_length_of_a_step() {
+    let pane = Breakable::new(Arc::clone(pane())).unwrap();
+    for speed in [8.0, 12.0, 20.0, 30.0] {
+        for seed in 0..3 {
+            let losses = [60.0, 120.0, 240.0].map(|rate| lost(&pane, seed, speed, rate));
+            println!("seed {seed}, {speed} m/s: {losses:.4?} m/s lost");
+            let [least, most] = [f64::min, f64::max].map(|of| losses.into_iter().reduce(of));
+            assert!(most.unwrap() < 1.01 * least.unwrap(), "{losses:?}");
+        }
     }
 }

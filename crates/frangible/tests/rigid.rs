@@ -1,11 +1,12 @@
 //! What a break does to the motion of bodies.
 
 use crate::bodies;
-use frangible::glam::{DMat3, DVec3};
+use frangible::glam::{DMat3, DVec3, Vec3};
 use frangible::internals::rigid::{
-    Kick, Rigid, affordable, nearest_first, push_plug, take_blow, take_energy,
+    Ball, Kick, Rigid, affordable, fly_through, nearest_first, pass, push_plug, take_blow,
+    take_energy, take_held,
 };
-use frangible::{Contact, Fracture, FractureConfig, Outcome, impact};
+use frangible::{Contact, Fracture, FractureConfig, Outcome, TriMesh, impact};
 
 fn ball(mass: f64, at: DVec3, velocity: DVec3) -> Rigid {
     let inertia = DMat3::from_diagonal(DVec3::splat(0.4 * mass * 1e-4));
@@ -199,4 +200,150 @@ fn fragments_move_apart_with_the_momentum_and_no_more_than_the_energy_of_the_blo
     let whole = Rigid::together(&pieces);
     let apart = energy(&pieces) - whole.kinetic_energy();
     assert!(apart > 0.05 * energy(&pieces), "{apart} J");
+}
+
+/// A box about its centre, m.
+fn box_mesh(half: Vec3) -> TriMesh {
+    let corner = |i: u32| half * Vec3::new(sign(i & 1), sign(i >> 1 & 1), sign(i >> 2));
+    let quads = [
+        [0, 2, 3, 1],
+        [4, 5, 7, 6],
+        [0, 1, 5, 4],
+        [2, 6, 7, 3],
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+    ];
+    TriMesh {
+        positions: (0..8).map(corner).collect(),
+        triangles: quads
+            .into_iter()
+            .flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]])
+            .collect(),
+        outer_triangles: 12,
+        ..TriMesh::default()
+    }
+}
+
+fn sign(bit: u32) -> f32 {
+    if bit == 0 { -1.0 } else { 1.0 }
+}
+
+/// A plate of a kilogram across x, with its middle there, and its mesh.
+fn plate(middle: DVec3) -> (Rigid, TriMesh) {
+    let half = Vec3::new(0.002, 0.1, 0.1);
+    let [x, y, z] = half.to_array().map(|h| f64::from(h * h) / 3.0);
+    let inertia = DMat3::from_diagonal(DVec3::new(y + z, x + z, x + y));
+    let body = Rigid::free(1.0, inertia, [middle, DVec3::ZERO, DVec3::ZERO]);
+    (body, box_mesh(half))
+}
+
+/// Throws a ball of 100 g and of 10 mm along x at plates, which it first touches at x = 0. Returns the ball, and what is lost, J.
+fn thrown(plates: &mut [(Rigid, TriMesh)], speed: f64) -> (Rigid, f64) {
+    let (mut bodies, meshes): (Vec<Rigid>, Vec<&TriMesh>) =
+        plates.iter().map(|(body, mesh)| (*body, mesh)).unzip();
+    let mut striker = along(0.1, -0.01, speed);
+    let ball = Ball {
+        point: DVec3::ZERO,
+        normal: DVec3::X,
+        radius: 0.01,
+    };
+    let lost = pass(&mut bodies, (&meshes, DMat3::IDENTITY), &mut striker, ball);
+    plates.iter_mut().zip(bodies).for_each(|(p, b)| p.0 = b);
+    (striker, lost)
+}
+
+#[test]
+fn a_ball_takes_with_it_what_is_in_its_way() {
+    let mut plates = [plate(DVec3::X * 0.002)];
+    let (ball, lost) = thrown(&mut plates, 11.0);
+    // One tenth and one kilogram go on together.
+    assert!((ball.linear.x - 1.0).abs() < 1e-9, "{} m/s", ball.linear.x);
+    assert!((plates[0].0.linear.x - 1.0).abs() < 1e-9);
+    let goes = 0.5 * 0.1 * 121.0 - 0.5 * 1.1;
+    assert!((lost - goes).abs() < 1e-9, "{lost} J");
+}
+
+#[test]
+fn a_ball_flies_through_a_hole_that_is_wide_enough_and_touches_the_rim_of_another() {
+    for (gap, free) in [(0.0102, true), (0.008, false)] {
+        // Two plates with their edges at these distances from the line of flight.
+        let side = |y: f64| plate(DVec3::new(0.002, y * (0.1 + gap), 0.0));
+        let mut plates = [side(-1.0), side(1.0)];
+        let before: Vec<Rigid> = plates.iter().map(|p| p.0).collect();
+        let (ball, lost) = thrown(&mut plates, 5.0);
+        let after: Vec<Rigid> = plates.iter().map(|p| p.0).collect();
+        println!("gap {gap}: {} m/s, {lost} J lost", ball.linear.x);
+        assert_eq!(free, ball.linear.x == 5.0);
+        assert_eq!(free, lost == 0.0);
+        let ball_before = along(0.1, -0.01, 5.0);
+        let [before, after] = [(before, ball_before), (after, ball)].map(|(mut all, ball)| {
+            all.push(ball);
+            all
+        });
+        let made = energy(&after) + lost - energy(&before);
+        assert!(made.abs() < 1e-12, "{made} J");
+        let [p, q] = [&before, &after].map(|all| momenta(all)[0]);
+        assert!((p - q).length() < 1e-12);
+    }
+}
+
+#[test]
+fn a_ball_that_leaves_meets_nothing() {
+    let mut plates = [plate(DVec3::X * 0.002)];
+    let (ball, lost) = thrown(&mut plates, -1.0);
+    assert_eq!((ball.linear.x, lost), (-1.0, 0.0));
+}
+
+#[test]
+fn a_ball_that_has_broken_a_pane_flies_on_with_the_momentum_that_the_pieces_leave_it() {
+    let (hit, fracture) = broken_pane();
+    let order = nearest_first(&fracture, &[hit.point]);
+    let contact = &fracture.report.contacts[0];
+    let (point, normal) = (contact.point.as_dvec3(), contact.normal.as_dvec3());
+    let radius = contact.striker_radius;
+    assert_eq!(radius, f64::from(hit.striker.curvature_radius));
+    let mass = 1.0 / f64::from(hit.striker.inverse_effective_mass);
+    let mut striker = [ball(
+        mass,
+        point - normal * radius,
+        normal * contact.approach_speed,
+    )];
+    let mut pieces = fragments(&fracture, &order);
+    let before = [&pieces[..], &striker].concat();
+    let pushes = [(point, normal * contact.impulse)];
+    let taken = Kick::about(striker[0].centre, &pushes).scaled(-1.0);
+    let place = (&order[..], DMat3::IDENTITY);
+    take_blow(&fracture, place, &mut pieces, &mut striker, &pushes, taken);
+    let blown = [&pieces[..], &striker].concat();
+    let place = (&order[..], DMat3::IDENTITY, DVec3::ZERO);
+    let lost = fly_through(&fracture, place, &mut pieces, &mut striker);
+    let after = [&pieces[..], &striker].concat();
+    println!("{lost} J lost, then {} m/s", striker[0].linear.dot(normal));
+    let [p, q] = [&before, &after].map(|all| momenta(all)[0]);
+    assert!((p - q).length() < 1e-12, "{p} {q}");
+    let made = energy(&after) + lost - energy(&blown);
+    assert!(made.abs() < 1e-12 && lost >= 0.0, "{made} J");
+    // One that is no ball about its own centre stays as it is.
+    let mut off = [ball(mass, point, normal * 10.0)];
+    let lost = fly_through(&fracture, place, &mut pieces, &mut off);
+    assert_eq!((lost, off[0].linear), (0.0, normal * 10.0));
+}
+
+#[test]
+fn a_body_that_holds_and_its_striker_get_the_blow_and_never_approach_after_it() {
+    for impulse in [0.05, 0.3, 0.9] {
+        let mut body = ball(1.0, DVec3::ZERO, DVec3::ZERO);
+        let mut striker = [along(0.1, -0.1, 5.0)];
+        let before = [&[body][..], &striker].concat();
+        let pushes = [(DVec3::new(-0.05, 0.0, 0.0), DVec3::X * impulse)];
+        let lost = take_held(&mut body, &mut striker, &pushes);
+        let after = [&[body][..], &striker].concat();
+        same(momenta(&before), momenta(&after));
+        let made = energy(&after) + lost - energy(&before);
+        assert!(made.abs() < 1e-12 && lost >= 0.0, "{made} J");
+        // As one body they have lost 5 / 11 N·s.
+        let got = body.linear.x;
+        let says = f64::max(impulse, 5.0 / 11.0);
+        assert!((got - says).abs() < 1e-9, "{got} N·s, not {says}");
+    }
 }

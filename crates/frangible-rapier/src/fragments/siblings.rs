@@ -11,7 +11,7 @@
 //! What is left of the overlap at birth is kept in the `user_data` of the contact manifold, and only there where there is any.
 
 use rapier3d::dynamics::RigidBodyHandle;
-use rapier3d::pipeline::{ContactModificationContext, PhysicsHooks};
+use rapier3d::pipeline::{ContactModificationContext, PhysicsHooks, PhysicsWorld};
 
 /// Steps after birth in which siblings do not bounce off each other.
 const NEWBORN_STEPS: u64 = 2;
@@ -39,6 +39,17 @@ pub(crate) struct Siblings {
     parents: u64,
     /// Birth of each body, by its index: asked for every pair of fragments in every step.
     births: Vec<Option<Birth>>,
+    passages: Vec<Passage>,
+}
+
+/// A striker on its way through the fragments of a body that it broke.
+#[derive(Clone, Copy, Debug)]
+struct Passage {
+    striker: RigidBodyHandle,
+    /// Number of the body that broke.
+    parent: u64,
+    /// First step in which it is through.
+    until: u64,
 }
 
 impl Siblings {
@@ -66,6 +77,53 @@ impl Siblings {
         });
     }
 
+    /// For so many steps the striker flies through the siblings of this fragment: what it loses by that it has lost.
+    pub(crate) fn pass(&mut self, striker: RigidBodyHandle, fragment: RigidBodyHandle, steps: u64) {
+        let Some(Birth { parent, .. }) = self.birth(fragment) else {
+            return;
+        };
+        self.passages.push(Passage {
+            striker,
+            parent,
+            until: self.step + steps,
+        });
+    }
+
+    /// Ends the passages in which the striker or a fragment touched anything else in the last step.
+    pub(crate) fn end_passages(&mut self, physics: &PhysicsWorld) {
+        if self.passages.is_empty() {
+            return;
+        }
+        let body = |c| physics.colliders.get(c).and_then(|c| c.parent());
+        let touching = physics.narrow_phase.contact_pairs();
+        let touching: Vec<[Option<RigidBodyHandle>; 2]> = touching
+            .filter(|pair| pair.has_any_active_contact())
+            .map(|pair| [pair.collider1, pair.collider2].map(body))
+            .collect();
+        let mut passages = std::mem::take(&mut self.passages);
+        passages.retain(|passage| {
+            let takes_part = |h: Option<RigidBodyHandle>| {
+                let sibling = |h| self.birth(h).is_some_and(|b| b.parent == passage.parent);
+                h.is_some_and(|h| h == passage.striker || sibling(h))
+            };
+            let mut others = touching.iter().map(|pair| pair.map(takes_part));
+            self.step < passage.until && others.all(|[a, b]| a == b)
+        });
+        self.passages = passages;
+    }
+
+    /// Returns true if one of the two is on its way through fragments of which the other is one.
+    fn passes(&self, a: RigidBodyHandle, b: RigidBodyHandle) -> bool {
+        let mut under_way = self.passages.iter().filter(|p| self.step < p.until);
+        under_way.any(|passage| {
+            let through = |piece| {
+                let birth = self.birth(piece);
+                birth.is_some_and(|birth| birth.parent == passage.parent)
+            };
+            passage.striker == a && through(b) || passage.striker == b && through(a)
+        })
+    }
+
     fn note(&mut self, birth: Birth) {
         let index = birth.handle.into_raw_parts().0 as usize;
         if self.births.len() <= index {
@@ -84,6 +142,8 @@ impl Siblings {
         for birth in &mut self.births {
             *birth = birth.filter(|b| alive(b.handle));
         }
+        let step = self.step;
+        self.passages.retain(|p| step < p.until && alive(p.striker));
     }
 
     /// All fragments, in the order of their handles.
@@ -125,6 +185,12 @@ impl PhysicsHooks for Siblings {
         let (Some(a), Some(b)) = (context.rigid_body1, context.rigid_body2) else {
             return;
         };
+        if self.passes(a, b) && both_move(context) {
+            if let Some(rigid) = context.rigid_mut() {
+                rigid.solver_contacts.clear();
+            }
+            return;
+        }
         let Some(relation) = self.relation(a, b) else {
             return;
         };
@@ -151,4 +217,12 @@ impl PhysicsHooks for Siblings {
             contact.dist = contact.dist.max(-later - self.relaxation);
         }
     }
+}
+
+fn both_move(context: &ContactModificationContext<'_>) -> bool {
+    let moves = |body: Option<RigidBodyHandle>| {
+        body.and_then(|h| context.bodies.get(h))
+            .is_some_and(|b| b.is_dynamic())
+    };
+    moves(context.rigid_body1) && moves(context.rigid_body2)
 }

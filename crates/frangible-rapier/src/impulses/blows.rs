@@ -1,8 +1,9 @@
 //! Impulses between bodies that met, from blows that were integrated.
 
-use frangible::ImpactReport;
 use frangible::glam::{DVec3, Vec3};
 use frangible::internals::DurationModel;
+use frangible::internals::rigid::nearest_first;
+use frangible::{Fracture, ImpactReport};
 use rapier3d::dynamics::RigidBodyHandle;
 use rapier3d::math::Pose;
 
@@ -82,6 +83,18 @@ pub(crate) fn meetings(
 }
 
 impl Meeting {
+    /// The pieces from the nearest to the contacts.
+    pub(crate) fn nearest(
+        &self,
+        fracture: &Fracture,
+        fragments: &[RigidBodyHandle],
+    ) -> Vec<RigidBodyHandle> {
+        let points: Vec<Vec3> = self.touches.iter().map(|t| t.local).collect();
+        let order = nearest_first(fracture, &points);
+        let there = order.into_iter().filter_map(|i| fragments.get(i));
+        there.copied().collect()
+    }
+
     /// Returns true if the other meeting is of the same two bodies, asked the other way round.
     fn is_mirrored_by(&self, other: &Self) -> bool {
         other.partner == Some(self.body) && self.partner == Some(other.body)

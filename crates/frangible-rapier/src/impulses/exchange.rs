@@ -16,10 +16,9 @@
 use std::collections::BTreeMap;
 
 use frangible::Fracture;
-use frangible::glam::{DVec3, Vec3};
+use frangible::glam::DVec3;
 use frangible::internals::rigid::{
-    self, Kick, Pushes, Rigid, affordable, is_local, kick_together, nearest_first, push_plug,
-    push_whole,
+    self, Kick, Pushes, Rigid, affordable, is_local, kick_together, push_plug, push_whole,
 };
 use rapier3d::dynamics::{RigidBodyHandle, RigidBodySet};
 
@@ -95,7 +94,7 @@ impl BreakableWorld {
     }
 
     /// Returns true if these bodies touched nothing but each other, and nothing is tied to them.
-    fn are_alone(&self, pair: &[RigidBodyHandle]) -> bool {
+    pub(crate) fn are_alone(&self, pair: &[RigidBodyHandle]) -> bool {
         let physics = &self.physics;
         let parent = |c| physics.colliders.get(c).and_then(|c| c.parent());
         pair.iter().all(|&handle| {
@@ -128,6 +127,7 @@ impl BreakableWorld {
                 .collect::<Vec<_>>(),
         );
         for broken in broken {
+            let thrown = self.thrown_at(broken);
             let blows: Vec<Push<'_>> = (broken.blow.iter())
                 .map(|meeting| Push {
                     meeting,
@@ -136,6 +136,9 @@ impl BreakableWorld {
                 })
                 .collect();
             broken.lost = self.push_apart(&broken.fracture, &broken.fragments, &blows);
+            if let Some(thrown) = thrown {
+                self.fly_through(broken, &thrown);
+            }
         }
     }
 
@@ -181,7 +184,7 @@ impl BreakableWorld {
         fragments: &[RigidBodyHandle],
         blows: &[Push<'_>],
     ) -> f64 {
-        let pieces = |blow: &Push<'_>| nearest(fracture, fragments, blow.meeting);
+        let pieces = |blow: &Push<'_>| blow.meeting.nearest(fracture, fragments);
         let mut lost = 0.0;
         if fracture.moves_apart() && !blows.iter().any(|blow| self.is_local(&pieces(blow), blow)) {
             for blow in blows {
@@ -384,16 +387,4 @@ impl Pair {
             side.put_back(bodies);
         }
     }
-}
-
-/// The pieces from the nearest to the contacts.
-fn nearest(
-    fracture: &Fracture,
-    fragments: &[RigidBodyHandle],
-    meeting: &Meeting,
-) -> Vec<RigidBodyHandle> {
-    let points: Vec<Vec3> = meeting.touches.iter().map(|t| t.local).collect();
-    let order = nearest_first(fracture, &points);
-    let there = order.into_iter().filter_map(|i| fragments.get(i));
-    there.copied().collect()
 }

@@ -5,3 +5,4 @@ pub(crate) mod exchange;
 pub(crate) mod motion;
 pub(crate) mod plain;
 pub(crate) mod settle;
+pub(crate) mod through;

@@ -35,6 +35,8 @@ pub(crate) struct Broken {
     pub(crate) released: Vec<ImpulseJointHandle>,
     /// Its contacts, where the blow was integrated.
     pub(crate) blow: Vec<Meeting>,
+    /// It and its striker touched nothing else in the step of the blow.
+    pub(crate) alone: bool,
     /// Energy that the motion has lost by that blow, J: the vibration's, from which the cracks are paid first.
     pub(crate) lost: f64,
 }

@@ -292,6 +292,7 @@ impl BreakableWorld {
             released,
             blow: Vec::new(),
             lost: 0.0,
+            alone: false,
         };
         if self.record(broken, before.as_ref(), energy_paid)
             && let Some(event) = self.events.last_mut()

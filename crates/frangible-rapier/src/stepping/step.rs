@@ -51,6 +51,7 @@ impl BreakableWorld {
         self.siblings.step = self.state.steps;
         self.siblings.relaxation =
             self.config.overlap_relaxation * self.physics.integration_parameters.dt;
+        self.siblings.end_passages(&self.physics);
         self.join_pieces();
         let pushed = self.apply_pushes();
         self.loosen_hit();

@@ -65,6 +65,10 @@ impl Record {
         ContactReport {
             point: site.touch.contact.point,
             normal: site.touch.contact.normal,
+            striker_radius: match site.script {
+                Some(_) => 0.0,
+                None => f64::from(site.touch.contact.striker.curvature_radius),
+            },
             approach_speed: f64::from(site.touch.contact.approach_speed),
             impulse: impulse * dt,
             peak_force: peak,

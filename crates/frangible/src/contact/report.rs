@@ -12,6 +12,8 @@ pub struct ContactReport {
     pub normal: Vec3,
     /// Impulse along the normal until separation, or until the wall or piece under the contact was cut free, N·s.
     pub impulse: f64,
+    /// Radius of curvature of the striker at the contact, m: infinite where it is flat, 0 for a script.
+    pub striker_radius: f64,
     /// Approach speed, m/s; 0 for a script.
     pub approach_speed: f64,
     /// Largest force, N.

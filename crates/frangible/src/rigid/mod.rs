@@ -7,12 +7,18 @@
 //! the impulse as one body, the fewest that do not leave faster than the striker follows, and all of them where even they do. What the motion loses
 //! by it went into vibration.
 //!
+//! A ball then [flies through](fly_through) the pieces in its way. A body that [has held](take_held) the blow gets its impulses as a whole.
+//!
 //! **The toll.** What the cracks cost beyond that is taken from the motion of pieces and striker against their common rigid motion, the
 //! one with their momentum and angular momentum. Every body's deviation from it is scaled by √(1 − E/T), T the deviations' kinetic
 //! energy: their sum carries neither momentum nor angular momentum, so both stay. Where one of them does not give way the common
 //! motion is its own, so that the toll comes from the fall that broke the body, or from the striker that broke what was held.
 
 mod blow;
+mod held;
+mod meet;
+mod passage;
+mod principal;
 
 use glam::{DMat3, DVec3};
 
@@ -20,6 +26,9 @@ pub use blow::{
     affordable, is_local, kick_together, nearest_first, part, push_plug, push_whole, take_blow,
     take_energy,
 };
+pub use held::take_held;
+pub use passage::{APART, Ball, fly_through, pass};
+pub use principal::principal_axes;
 
 /// A rigid body, world axes.
 #[derive(Clone, Copy, Debug)]

@@ -103,6 +103,7 @@ impl BreakableWorld {
             released,
             blow: Vec::new(),
             lost,
+            alone: false,
         };
         if self.record(broken, Some(&parent), lost + paid)
             && let Some(event) = self.events.last_mut()

@@ -141,8 +141,11 @@ impl BreakableWorld {
             return false;
         }
         let blow = self.meetings(body, before, &impact, &fracture.report);
+        let met: Vec<RigidBodyHandle> = impact.partners.iter().copied().flatten().collect();
+        let alone = self.are_alone(&[&[body][..], &met].concat());
         asked.broken.push(Broken {
             parent: body,
+            alone,
             cause,
             fracture,
             parts,
