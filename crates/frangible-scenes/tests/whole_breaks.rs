@@ -251,7 +251,8 @@ fn cracks_stand_upright_in_a_pane() {
         "crack area more than 30° askew: {ours:.3}; fed from γ {walls:.3}, with stress as the mesh has it {centres:.3}"
     );
     assert!(ours < 0.2, "{ours}");
-    assert!(walls < 0.65 * centres, "{walls} {centres}");
+    // Without roughness in the direction of cracks, fewer are askew with the stress of the mesh, too.
+    assert!(walls < 0.8 * centres, "{walls} {centres}");
 }
 
 /// Share of the crack faces' area between 60 and 190 mm from the blow whose normals lie within 45° of the direction around it, in panes that
