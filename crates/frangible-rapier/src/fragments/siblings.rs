@@ -16,6 +16,10 @@ use rapier3d::pipeline::{ContactModificationContext, PhysicsHooks, PhysicsWorld}
 /// Steps after birth in which siblings do not bounce off each other.
 const NEWBORN_STEPS: u64 = 2;
 
+/// Steps after birth in which all overlap of siblings counts as that of birth: pieces that fly apart turn, and their jags meet, and pushing those apart
+/// would make energy.
+const YOUNG_STEPS: u64 = 60;
+
 #[derive(Clone, Copy, Debug)]
 struct Birth {
     handle: RigidBodyHandle,
@@ -162,10 +166,11 @@ impl Siblings {
         let (a, b) = (self.birth(a)?, self.birth(b)?);
         let rubble = a.parent == RUBBLE || b.parent == RUBBLE;
         let siblings = a.parent == b.parent || rubble && a.origin == b.origin;
-        siblings.then(|| match self.step < a.step.max(b.step) + NEWBORN_STEPS {
-            true => Relation::Newborn,
-            false if rubble => Relation::Rubble,
-            false => Relation::Old,
+        siblings.then(|| match self.step.saturating_sub(a.step.max(b.step)) {
+            ..NEWBORN_STEPS => Relation::Newborn,
+            _ if rubble => Relation::Rubble,
+            ..YOUNG_STEPS => Relation::Young,
+            _ => Relation::Old,
         })
     }
 }
@@ -173,8 +178,10 @@ impl Siblings {
 /// Relation of two siblings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Relation {
-    /// Born just now: all their overlap is from birth.
+    /// Born just now: they do not bounce.
     Newborn,
+    /// Born lately: all their overlap counts as that of birth.
+    Young,
     /// One is a rubble, in which pieces may lie as they were born.
     Rubble,
     Old,
@@ -206,10 +213,10 @@ impl PhysicsHooks for Siblings {
         let overlap = deepest.fold(0.0, f32::max);
         let known = f32::from_bits(*rigid.user_data);
         let of_birth = match relation {
-            Relation::Newborn | Relation::Rubble => overlap,
+            Relation::Newborn | Relation::Young | Relation::Rubble => overlap,
             Relation::Old => known.min(overlap),
         };
-        if relation == Relation::Newborn || known > 0.0 {
+        if matches!(relation, Relation::Newborn | Relation::Young) || known > 0.0 {
             *rigid.user_data = (of_birth - self.relaxation).max(0.0).to_bits();
         }
         for contact in rigid.solver_contacts.iter_mut() {
