@@ -95,7 +95,8 @@ fn pieces_settle_and_sleep_on_a_thin_floor() {
 #[test]
 fn a_piece_that_is_pressed_into_another_comes_out() {
     let (mut world, event) = broken_box(false, 0.2, 0.0);
-    for _ in 0..24 {
+    // Until they are no longer on their way apart.
+    for _ in 0..64 {
         world.step().unwrap();
     }
     // The nearest two of the pieces, one of them pushed into the other.

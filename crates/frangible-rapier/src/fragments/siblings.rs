@@ -16,7 +16,7 @@ use rapier3d::pipeline::{ContactModificationContext, PhysicsHooks, PhysicsWorld}
 /// Steps after birth in which siblings do not bounce off each other.
 const NEWBORN_STEPS: u64 = 2;
 
-/// Steps after birth in which all overlap of siblings counts as that of birth: pieces that fly apart turn, and their jags meet, and pushing those apart
+/// Steps after birth in which all overlap of siblings is softened: pieces that fly apart turn, and their jags meet, and pushing those apart
 /// would make energy.
 const YOUNG_STEPS: u64 = 60;
 
@@ -180,7 +180,7 @@ impl Siblings {
 enum Relation {
     /// Born just now: they do not bounce.
     Newborn,
-    /// Born lately: all their overlap counts as that of birth.
+    /// Born lately, perhaps still on their way apart.
     Young,
     /// One is a rubble, in which pieces may lie as they were born.
     Rubble,
@@ -213,14 +213,18 @@ impl PhysicsHooks for Siblings {
         let overlap = deepest.fold(0.0, f32::max);
         let known = f32::from_bits(*rigid.user_data);
         let of_birth = match relation {
-            Relation::Newborn | Relation::Young | Relation::Rubble => overlap,
-            Relation::Old => known.min(overlap),
+            Relation::Newborn => overlap,
+            _ => known.min(overlap),
         };
-        if matches!(relation, Relation::Newborn | Relation::Young) || known > 0.0 {
+        if relation == Relation::Newborn || known > 0.0 {
             *rigid.user_data = (of_birth - self.relaxation).max(0.0).to_bits();
         }
+        let softened = match relation {
+            Relation::Old => of_birth,
+            _ => overlap,
+        };
         for contact in rigid.solver_contacts.iter_mut() {
-            let later = (-contact.dist - of_birth).max(0.0);
+            let later = (-contact.dist - softened).max(0.0);
             contact.dist = contact.dist.max(-later - self.relaxation);
         }
     }
