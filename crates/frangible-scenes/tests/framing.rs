@@ -250,13 +250,7 @@ fn each_moment_of_four_scenes_made_at_random_fills_its_picture_but_for_known_one
     let bad: Vec<String> = (1..=4)
         .flat_map(|n| badly_framed(any_scene(n), 20))
         .collect();
-    // A slab of chocolate breaks through along its sections, and its pieces lie far apart.
-    let known = [
-        "any 1, just after",
-        "any 3, at the end",
-        "any 4, at the end",
-    ];
-    assert_eq!(bad, known);
+    assert_eq!(bad, ["any 1, just after"]);
 }
 
 #[test]
