@@ -169,7 +169,7 @@ impl Siblings {
         siblings.then(|| match self.step.saturating_sub(a.step.max(b.step)) {
             ..NEWBORN_STEPS => Relation::Newborn,
             _ if rubble => Relation::Rubble,
-            ..YOUNG_STEPS => Relation::Young,
+            NEWBORN_STEPS..YOUNG_STEPS => Relation::Young,
             _ => Relation::Old,
         })
     }
