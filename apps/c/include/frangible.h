@@ -690,7 +690,7 @@ frangible_status frangible_outcome_piece(frangible_outcome outcome,
  * the blow, without any response of the engine. `striker` is the one that came, in world axes with its motion before the blow; null, or fixed, if it
  * does not give way. `poses` and `motions` have room for `count` fragments, which is their number; `poses` and `striker_after` may be null.
  *
- * Of a body that **held** the blow, `count` is 1, and the row is that of the body. Leave the contact out of the engine's step then. A blow whose report
+ * If the body **held** the blow, `count` is 1, and the row is that of the body. Leave the contact out of the engine's step then. A blow whose report
  * has no contacts was refused by a bound, and changes nothing here: leave it to the engine.
  */
 frangible_status frangible_outcome_motions(frangible_outcome outcome,

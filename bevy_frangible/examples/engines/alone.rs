@@ -12,7 +12,7 @@ use bevy_frangible::frangible::{
 
 use super::scenes::{Scene, Solid};
 
-/// What a ball loses that hits a free pane, m/s: just after the blow, its speed is one of the blow's outcomes. None in any other scene.
+/// Speed that a ball loses to a free pane, m/s: its speed just after the blow is one of the blow's outcomes. None in any other scene.
 ///
 /// # Errors
 /// An error of the impact.

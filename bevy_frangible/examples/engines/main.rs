@@ -25,7 +25,7 @@ const SEEDS: u64 = 100;
 struct Played {
     /// In Rapier and in Avian, with the most steps per second.
     engines: [Vec<Outcome>; 2],
-    /// What a ball loses, m/s: without an engine; and in each engine with each number of steps per second. Empty in other scenes.
+    /// Speed that a ball loses, m/s: without an engine, and in each engine with each number of steps per second. Empty in other scenes.
     alone: Vec<f64>,
     lost: [[Vec<f64>; RATES.len()]; 2],
 }

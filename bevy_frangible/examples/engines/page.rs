@@ -104,7 +104,7 @@ fn conservation(played: &[(Scene, Played)], engine: usize) -> (f64, f64) {
     (momentum, energy)
 }
 
-/// What balls lose, without an engine and in both, with each number of steps per second.
+/// Table of the speeds that balls lose, without an engine and in both, with each number of steps per second.
 fn losses(out: &mut String, played: &[(Scene, Played)]) {
     out.push_str(
         "## What the ball loses\n\nThe loss of speed a quarter of a second after the throw, m/s, of all seeds, whether the pane broke or not. *The blow \

@@ -99,7 +99,7 @@ impl Break {
 }
 
 impl Scene {
-    /// What the striker has lost of its speed at the end, m/s.
+    /// Speed that the striker has lost at the end, m/s.
     pub fn lost(&self, outcome: &Outcome) -> Option<f64> {
         let before = self.striker.as_ref()?.start.velocity;
         Some(f64::from(

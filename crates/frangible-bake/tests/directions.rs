@@ -176,7 +176,7 @@ fn a_crack_keeps_its_direction_and_its_speed_at_every_angle_to_the_mesh() {
     }
 }
 
-/// Where the mesh resolves the roughness it neither turns a crack nor costs energy: toughness is measured per area without it.
+/// Roughness that the mesh resolves neither turns a crack nor costs energy: toughness is measured per area without roughness.
 #[test]
 fn roughness_does_not_turn_a_crack_nor_add_to_its_area() {
     let side = 0.06;

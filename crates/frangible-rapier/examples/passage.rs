@@ -1,4 +1,4 @@
-//! What a ball loses that meets a free pane: by the blow and its way through the pieces alone, without an engine, and in Rapier with steps of
+//! Speed that a ball loses to a free pane: by the blow and its way through the pieces alone, without an engine, and in Rapier with steps of
 //! several lengths. A measuring tool: `cargo run --release -p frangible-rapier --example passage -- 20 40 0.25` throws at 20 m/s with forty
 //! seeds, and looks at the ball 0.25 s after it could have touched the pane.
 
@@ -77,7 +77,7 @@ fn shown(values: &[f64]) -> String {
 }
 
 impl Throw {
-    /// What the ball loses by the blow and on its way through the pieces, m/s.
+    /// Speed that the ball loses by the blow and on its way through the pieces, m/s.
     fn alone(&self, seed: u64) -> Result<f64, InputError> {
         let body = self.pane.body(seed);
         let place = body.nearest_on_surface(START * Vec3::new(1.0, 1.0, 0.1));
@@ -122,7 +122,7 @@ impl Throw {
         Ok((ball[0].linear - velocity).z)
     }
 
-    /// What the ball has lost in Rapier, m/s, this long after it could have touched the pane, and whether the pane broke.
+    /// Speed that the ball has lost in Rapier, m/s, this long after it could have touched the pane, and whether the pane broke.
     fn in_rapier(&self, seed: u64, rate: f32, seconds: f32) -> Result<(f64, bool), WorldError> {
         let mut config = WorldConfig::plain();
         (config.gravity, config.dt) = (Vector::ZERO, 1.0 / rate);

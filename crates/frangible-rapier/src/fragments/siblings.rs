@@ -2,13 +2,13 @@
 //!
 //! The hulls of jagged pieces cut into each other by the depth of the jags, and shapes that touch exactly give
 //! contact directions that are rounding noise. Rapier would push such pairs apart at up to its corrective speed.
-//! Of the overlap that siblings are born with, no more than [`crate::WorldConfig::overlap_relaxation`] × time step is
+//! Siblings are born with an overlap, of which no more than [`crate::WorldConfig::overlap_relaxation`] × time step is
 //! shown to the solver: the pair cannot come nearer, so nothing sinks; it creeps apart at about that speed, so nothing
 //! explodes; it may part at any speed, so nothing sticks; and it ends at the true surfaces, so nothing hovers.
 //! Only this overlap is softened: a blow between siblings is as hard as any, and one that is pressed into another
 //! comes out as of any other body.
 //!
-//! What is left of the overlap at birth is kept in the `user_data` of the contact manifold, and only there where there is any.
+//! The `user_data` of a contact manifold keeps the rest of the overlap at birth, where there is any.
 
 use rapier3d::dynamics::RigidBodyHandle;
 use rapier3d::pipeline::{ContactModificationContext, PhysicsHooks, PhysicsWorld};

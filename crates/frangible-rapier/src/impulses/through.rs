@@ -1,6 +1,6 @@
 //! A ball flies on through the body that it broke ([`frangible::internals::rigid::fly_through`]).
 //!
-//! What it meets of the pieces on its way is found there, so the engine leaves its contacts with the loose ones out for [`APART`] (`siblings.rs`). Where
+//! The core finds what it meets of the pieces on its way, so the engine leaves its contacts with the loose ones out for [`APART`] (`siblings.rs`). Where
 //! the ball or a piece touches anything else, the engine's contacts count: there a chain of bodies pushes. The ball reaches the body within the step: it
 //! begins the step so far ahead that it is at the point of contact when it would have been.
 
