@@ -142,7 +142,6 @@ impl<'a> Cracking<'a> {
                     blow.go_on(body, step, &changed.contacts, changed.groups, motion);
                     displacement.forget();
                     system.releases.forget_batch();
-                    suspects.forget_motion();
                 }
             }
             // A shorter blow brings less in the end.

@@ -52,6 +52,13 @@ pub mod material {
     pub use frangible_material::*;
 }
 
+/// Dispatch to the widest vectors of the processor.
+#[doc(hidden)]
+pub mod vectors {
+    pub use crate::vectors::*;
+    pub use pulp::NullaryFnOnce;
+}
+
 /// Tetrahedra and surfaces.
 pub mod mesh {
     pub use frangible_geometry::*;

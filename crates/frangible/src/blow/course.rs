@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::apart::Apart;
 use super::flight::Setup;
 use super::groups::Groups;
-use super::integrate::{MOST_SUBSTEPS, Progress, Run, Softening};
+use super::integrate::{MOST_SUBSTEPS, Progress, Run, Softening, run};
 use super::parted::Parted;
 use super::plan::{Plan, Site};
 use super::record::Record;
@@ -321,7 +321,7 @@ impl Blow {
 
     /// Follows the motion to a time step.
     fn follow(&mut self, motion: &mut Motion, until: usize) {
-        crate::vectors::widest(Run {
+        run(Run {
             setup: Setup {
                 plan: &self.plan,
                 parted: &self.parted,
