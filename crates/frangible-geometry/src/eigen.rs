@@ -12,8 +12,10 @@ pub fn symmetric_eigen(matrix: DMat3) -> (DVec3, DMat3) {
     let mut a = matrix.to_cols_array_2d();
     let mut v = DMat3::IDENTITY.to_cols_array_2d();
     for _ in 0..SWEEPS {
-        let off = a[0][1].abs() + a[0][2].abs() + a[1][2].abs();
-        if off <= 1e-17 * (a[0][0].abs() + a[1][1].abs() + a[2][2].abs()) {
+        let off = a[0][1].powi(2) + a[0][2].powi(2) + a[1][2].powi(2);
+        let diagonal = a[0][0].powi(2) + a[1][1].powi(2) + a[2][2].powi(2);
+        // Rounding: between equal values it would turn the axes by any angle.
+        if off <= 1e-30 * diagonal {
             break;
         }
         for (p, q) in [(0, 1), (0, 2), (1, 2)] {

@@ -4,7 +4,7 @@ use web_time::Instant;
 
 use crate::blow::{Apart, Blow, Groups};
 use crate::body::Body;
-use crate::config::{CrackTiming, FractureConfig};
+use crate::config::FractureConfig;
 use crate::crack::{CrackSystem, Peak, StressField, Suspects, crack};
 use crate::fragment::{self, Labels, Volumes};
 use crate::motion::{DisplacementBatch, Motion};
@@ -239,7 +239,7 @@ impl<'a> Cracking<'a> {
         };
         let mut groups = None;
         // Cracks that run at once feel neither each other nor that a piece has parted.
-        if matches!(self.config.timing, CrackTiming::TimeResolved { .. }) {
+        if !self.config.is_paper() {
             let (index, mesh) = (&self.body.prepared.index, &self.body.asset.fracture);
             let progress = system.progress();
             let labels = match grown.pieces.take() {

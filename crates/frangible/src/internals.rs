@@ -103,7 +103,7 @@ pub mod stress {
 }
 
 pub use crate::asset::AssetFileError;
-pub use crate::config::{CrackPath, CrackTiming, DurationModel};
+pub use crate::config::{DurationModel, Model};
 pub use crate::crack::ShownStress;
 pub use crate::fields::{Factors, Fields};
 #[doc(hidden)]

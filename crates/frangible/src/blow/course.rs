@@ -13,7 +13,7 @@ use super::plan::{Plan, Site};
 use super::record::Record;
 use super::star::Star;
 use crate::body::Body;
-use crate::config::{CrackTiming, FractureConfig};
+use crate::config::FractureConfig;
 use crate::contact::{self, Contact};
 use crate::crack::{CrackSystem, StressField};
 use crate::error::InputError;
@@ -100,7 +100,7 @@ impl Blow {
             saved: None,
             nodes: plan.nodes(body),
             plan,
-            instant: config.timing == CrackTiming::Instant,
+            instant: config.is_paper(),
             longest: MOST_SUBSTEPS,
             softer: Vec::new(),
             parted: Vec::new(),

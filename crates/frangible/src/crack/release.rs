@@ -24,7 +24,6 @@ use super::extents::Ring;
 use super::field::StressField;
 use super::suspects::Suspect;
 use super::system::CrackSystem;
-use crate::config::CrackTiming;
 use crate::stress::{
     BATCH, MARGIN, Released, STRETCHED, STRIDE, Steps, StressLanes, Symmetric3, bent, lane,
     largest_eigenvalue,
@@ -175,7 +174,7 @@ impl Releases {
         ring: Ring,
         now: f64,
     ) -> Option<&mut Point> {
-        if system.config.timing == CrackTiming::Instant || system.cracks.is_empty() {
+        if system.config.is_paper() || system.cracks.is_empty() {
             return None;
         }
         let place = suspect.place as usize;
