@@ -175,7 +175,7 @@ pub fn initiation_on_cpu(
     config: &FractureConfig,
     first_step: usize,
 ) -> Initiation {
-    let mut found = Initiation::none(vibration.pulse.total_steps);
+    let mut found = Initiation::none(vibration.report.time_steps);
     let mut of_tet: Vec<Option<Exceedance>> = vec![None; body.weak_tets().len()];
     let visit = |place: usize, tet, step, tensor: &Symmetric3| {
         let strength = body.strength(tet);

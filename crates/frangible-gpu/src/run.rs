@@ -84,7 +84,7 @@ impl Gpu {
         let found = jobs.iter().zip(&wave.spans).enumerate();
         Ok(found
             .map(|(i, (job, span))| {
-                let (body, steps) = (job.body, job.vibration.pulse.total_steps);
+                let (body, steps) = (job.body, job.pulse.total_steps);
                 if span.alive == 0 {
                     Initiation::passed_over(span.bound, body, steps)
                 } else {

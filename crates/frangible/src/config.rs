@@ -15,8 +15,8 @@ pub struct FractureConfig {
     /// Lengthens a contact with given impulse and duration until the body's vibration has no more energy than the impact supplied.
     /// Default: off, because an integrated blow does not need it.
     pub admissible_duration: bool,
-    /// Includes the static response of the modes that are not integrated through time, as the residual vector. Default: on. The paper
-    /// omits these modes.
+    /// Includes the static response of the modes that are not integrated through time, as the residual vector, in integrated blows, blasts and
+    /// sustained loads. Default: on. The paper omits these modes.
     pub residual: bool,
     /// Theory for the near field of contacts on walls: the local stress and compliance under a contact that the modes do not resolve
     /// ([`near_field`](crate::internals::near_field)). Default: elastic layer. The paper has no near field.
@@ -146,12 +146,6 @@ impl FractureConfig {
             "0 or more and below 1",
         )?;
         Ok(())
-    }
-
-    /// Returns true if blows are integrated, or contacts have anything beside the modes that are followed: their forces are then followed with
-    /// the body, substep by substep.
-    pub(crate) fn has_complement(&self) -> bool {
-        self.duration == DurationModel::Integrated || self.residual || self.near_field.is_some()
     }
 
     /// Returns true if the cracks are those of the paper.

@@ -108,7 +108,7 @@ pub use crate::crack::ShownStress;
 pub use crate::fields::{Factors, Fields};
 #[doc(hidden)]
 pub use crate::fragment::{CutEdge, interfaces_of_labels, pieces_of_cuts};
-pub use crate::impact::{Stage, Vibration, impact_traced};
+pub use crate::impact::{Drive, Stage, Vibration, impact_traced};
 pub use crate::loads::{Blast, Force, LoadClock, blast, follow, follow_traced, fracture_at, rest};
 pub use crate::mesh::{MassProperties, RenderMesh, TetMesh, box_projection};
 pub use crate::outcome::{LookedAt, StageTimings};

@@ -10,12 +10,12 @@ use crate::asset::each_row;
 use crate::blow::SteadyNear;
 use crate::body::Body;
 use crate::config::FractureConfig;
-use crate::cracking::{Cracked, Cracking};
+use crate::cracking::{Cracked, Cracking, Moves};
 use crate::error::{InputError, finite};
-use crate::impact::{pieces, report_on};
+use crate::impact::pieces;
 use crate::mesh::SurfacePoint;
 use crate::motion::Motion;
-use crate::outcome::{LookedAt, Outcome};
+use crate::outcome::{ImpactReport, LookedAt, Outcome};
 use crate::refuse::{Pushes, harmless};
 
 /// A force on the surface, body frame.
@@ -58,7 +58,7 @@ pub fn rest(
         let theory = config.near_field.filter(|_| !config.is_paper())?;
         SteadyNear::of(body, at, *force, theory)
     };
-    let mut report = report_on(body);
+    let mut report = ImpactReport::of(body);
     let left = body
         .resistance
         .left_after(config.load_duration, report.strength);
@@ -122,11 +122,10 @@ pub fn rest(
         Cracking {
             body,
             config,
-            motion,
+            moves: Moves::Given(motion),
             pressed: pressed.clone(),
             time_step,
             budget: f64::INFINITY,
-            blow: None,
         }
         .run(0, report, &mut None)
     };
