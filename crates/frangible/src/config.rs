@@ -45,8 +45,8 @@ pub struct FractureConfig {
 pub enum Model {
     /// Cracks start at flaws on the free surface, where no traction acts, and in walls under plane stress. They run at a finite speed, steered until no
     /// shear acts across them, fork, pass one another in walls and end inside the tetrahedron of a crack that they meet. Griffith's energy release
-    /// rate feeds them, and together they spend no more than the peak strain energy. Strain is linear: modes move every point along a straight
-    /// line, so a rotation of 0.03 in a swinging thin body comes with a stretch of 5e-4, the failure strain of glass.
+    /// rate feeds them, and together they spend no more than the peak strain energy. Strain is linear, as modes are: they move every point along a
+    /// straight line, so quadratic strain takes a rotation of 0.03 in a swinging thin body for a stretch of 5e-4, the failure strain of glass.
     #[default]
     Ours,
     /// The cracks of `[G12 §4.4-5]`, for comparison: Green and Lagrange's strain at centres of tetrahedra; each crack runs at once, breadth-first

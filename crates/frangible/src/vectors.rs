@@ -14,7 +14,8 @@ pub fn dispatch<Op: pulp::NullaryFnOnce>(operation: Op) -> Op::Output {
     }
 }
 
-/// Defines functions that run with the widest vectors of the processor, see [`dispatch`]. Generic parameters stand in brackets behind the name.
+/// Defines functions that run with the widest vectors of the processor, by `internals::vectors::dispatch`. Generic parameters stand in brackets
+/// behind the name.
 ///
 /// Everything that the body calls has to be inlined, closures included: code of its own is compiled for the plain processor.
 #[doc(hidden)]
