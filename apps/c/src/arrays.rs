@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 
 use frangible::glam::DQuat;
 use frangible::internals::MassProperties;
-use frangible::internals::rigid::principal_axes;
+use frangible::internals::mesh::symmetric_eigen;
 use frangible::{Asset, Fragment};
 use frangible_js::plain::{Drawn, hulls_of_body, hulls_of_fragment};
 
@@ -106,7 +106,7 @@ impl Arrays {
 
 /// Masses as a struct.
 pub(crate) fn solid(mass: &MassProperties, supported: bool) -> frangible_solid {
-    let (moments, axes) = principal_axes(mass.inertia);
+    let (moments, axes) = symmetric_eigen(mass.inertia);
     frangible_solid {
         supported: supported.into(),
         mass: mass.mass,

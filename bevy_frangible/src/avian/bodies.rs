@@ -5,7 +5,7 @@ use bevy::prelude::*;
 use frangible::Material;
 use frangible::glam::DQuat;
 use frangible::internals::MassProperties;
-use frangible::internals::rigid::principal_axes;
+use frangible::internals::mesh::symmetric_eigen;
 
 use super::colliders::{ColliderDetail, of_fragment, whole};
 use super::plain::{piece, rigid, velocities};
@@ -209,7 +209,7 @@ pub(super) fn push(
 /// Mass, centre and inertia of the piece itself, whatever its collider's volume. Avian's own conversion of a tensor takes one whose products of inertia are
 /// below 1e-5 kg·m² for a diagonal one: most pieces would turn about wrong axes, and have another energy.
 fn masses(mass: &MassProperties) -> impl Bundle + use<> {
-    let (moments, axes) = principal_axes(mass.inertia);
+    let (moments, axes) = symmetric_eigen(mass.inertia);
     let frame = DQuat::from_mat3(&axes).normalize().as_quat();
     let (moments, frame) = (moments.as_vec3().to_array(), frame.to_array());
     (

@@ -14,7 +14,6 @@
 //! et al.'s constraint solver and their weakening of what lies beside an open face, Müller et al.'s fixed radius of a crack.
 
 use frangible::Fragment;
-use frangible::internals::CrackTiming;
 use frangible::internals::stress::{STRETCHED, Skin, bent, largest_eigenvalue, principal_axes};
 
 use crate::error::CompareError;
@@ -40,9 +39,9 @@ pub(crate) fn separate(hit: Hit<'_>) -> Result<Separated, CompareError> {
     let wave = Wave::new(hit)?;
     let mut moment = wave.at(wave.most_stressed());
     let available = wave.strain_energy();
-    let budget = match hit.config.energy_ledger {
-        true => available,
-        false => f64::INFINITY,
+    let budget = match hit.config.is_paper() {
+        true => f64::INFINITY,
+        false => available,
     };
     let mut faces = Faces::new(hit.body, budget);
     open(hit, &mut moment, &mut faces);
@@ -59,7 +58,7 @@ fn open(hit: Hit<'_>, moment: &mut Moment<'_>, faces: &mut Faces<'_>) {
     let asset = hit.body.asset();
     let skin = Skin::of(asset);
     let in_wall = bent(asset.material.poisson_ratio);
-    let instant = hit.config.timing == CrackTiming::Instant;
+    let instant = hit.config.is_paper();
     let mut starts: Vec<(f32, u32)> = Vec::new();
     for &tet in hit.body.weak_tets() {
         let tension = largest_eigenvalue(&moment.at_weak_point(tet).stress);
@@ -78,7 +77,6 @@ fn open(hit: Hit<'_>, moment: &mut Moment<'_>, faces: &mut Faces<'_>) {
         let mut stress = moment.at_weak_point(tet).stress;
         if !instant {
             let wall = skin.wall(asset, tet as usize);
-            let wall = wall.filter(|_| hit.config.plane_stress_walls);
             let beta = wall.map_or(STRETCHED, |_| in_wall);
             for crack in &cracks {
                 stress = stress.released(crack.normal, crack.share_left(middle, beta));

@@ -53,9 +53,9 @@ pub(crate) fn divide<'a>(
     });
     let cells = Sites(drawn).divide(hit.body)?;
     let seams = seams(hit, &mut moment, cells.borders());
-    let budget = match hit.config.energy_ledger {
-        true => wave.strain_energy(),
-        false => f64::INFINITY,
+    let budget = match hit.config.is_paper() {
+        true => f64::INFINITY,
+        false => wave.strain_energy(),
     };
     let joined = join(sites, seams, budget);
     let division = cells.relabelled(|cell| joined[cell as usize]);

@@ -1,9 +1,9 @@
 //! The body's stress at one moment of the vibration that ours follows.
 
-use frangible::FractureConfig;
+use frangible::internals::asset::EmbeddedPoint;
 use frangible::internals::modal::Motion;
 use frangible::internals::stress::{
-    DisplacementBatch, Elasticity, StressState, largest_eigenvalue,
+    DisplacementBatch, Elasticity, Law, Skin, StressState, largest_eigenvalue,
 };
 use frangible::internals::{Stage, Vibration};
 
@@ -19,8 +19,7 @@ pub(crate) struct Wave<'a> {
     motion: Motion,
     /// Surface triangles under the contacts.
     pressed: Vec<u32>,
-    /// Configuration for stress at the middles of tetrahedra rather than at the flaws on their faces.
-    inside: FractureConfig,
+    skin: Skin,
 }
 
 /// One time step of it.
@@ -40,12 +39,10 @@ impl<'a> Wave<'a> {
         else {
             return Err(CompareError::NoImpulse);
         };
-        let mut inside = hit.config.clone();
-        inside.surface_flaws = false;
         Ok(Self {
             motion: vibration.motion(hit.body),
             pressed: vibration.pressed,
-            inside,
+            skin: Skin::of(hit.body.asset()),
             hit,
         })
     }
@@ -109,26 +106,31 @@ impl<'a> Wave<'a> {
 impl Moment<'_> {
     /// Stress at the middle of a tetrahedron.
     pub(crate) fn inside(&mut self, tet: u32) -> StressState {
-        let inside = &self.wave.inside;
-        self.state(tet, inside)
+        let Hit { body, config, .. } = self.wave.hit;
+        let asset = body.asset();
+        let wall = (!config.is_paper()).then(|| self.wave.skin.wall(asset, tet as usize));
+        let law = wall
+            .flatten()
+            .map_or(Law::Solid, |wall| Law::Free(wall.normal));
+        self.state(*asset.embedded_tet(tet as usize), law)
     }
 
     /// Stress at the place in a tetrahedron where a crack may start.
     pub(crate) fn at_weak_point(&mut self, tet: u32) -> StressState {
-        let config = self.wave.hit.config;
-        self.state(tet, config)
+        let Hit { body, config, .. } = self.wave.hit;
+        let (point, law) = body.weak_place(tet, config, &self.wave.pressed);
+        self.state(point, law)
     }
 
-    fn state(&mut self, tet: u32, config: &FractureConfig) -> StressState {
-        let body = self.wave.hit.body;
-        let (point, law) = body.weak_place(tet, config, &self.wave.pressed);
-        let gradient = self.batch.gradient(body.asset(), &point, 0);
+    fn state(&mut self, point: EmbeddedPoint, law: Law) -> StressState {
+        let asset = self.wave.hit.body.asset();
+        let gradient = self.batch.gradient(asset, &point, 0);
         self.elasticity.state_by(gradient, law)
     }
 }
 
 fn elasticity(hit: Hit<'_>) -> Elasticity {
-    Elasticity::new(&hit.body.asset().material).with_green_lagrange(hit.config.green_lagrange)
+    Elasticity::new(&hit.body.asset().material).with_green_lagrange(hit.config.is_paper())
 }
 
 /// Place of the largest number, the first of equals.

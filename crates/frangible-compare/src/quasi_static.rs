@@ -11,8 +11,8 @@
 
 use frangible::Outcome;
 use frangible::internals::contact::modal_load;
+use frangible::internals::follow;
 use frangible::internals::modal::Motion;
-use frangible::internals::{CrackTiming, follow};
 
 use crate::error::CompareError;
 use crate::hit::Hit;
@@ -42,7 +42,7 @@ pub(crate) fn quasi_static(hit: Hit<'_>, step: f64) -> Result<Outcome, CompareEr
 /// Time step, s, in which a crack runs a mean edge of the mesh, and number of steps for which the load lasts.
 fn steps(hit: Hit<'_>, lasts: f64) -> (f64, usize) {
     let asset = hit.body.asset();
-    let CrackTiming::TimeResolved { speed, .. } = hit.config.timing else {
+    let Some(speed) = hit.config.crack_speed() else {
         return (lasts, 1);
     };
     let edge = f64::from(asset.fracture.mean_edge());

@@ -3,6 +3,7 @@
 //! - [`TetMesh`]: linear tetrahedra with their neighbours; [`TriMesh`]: the closed surface of a piece; [`RenderMesh`]: its render mesh;
 //! - [`RenderSurface`]: the authored surface, and [`RenderIndex`], which divides it among the pieces;
 //! - [`TriangleTree`]: the closest point of a surface; [`AlongSurface`]: distances along one; [`MassProperties`]: mass, centre and inertia;
+//! - [`symmetric_eigen`]: principal values and axes of a stress or an inertia;
 //! - [`merged_parts`], [`ConvexHull`], [`thinned`], [`bounds`] and [`box_of`]: fewer and simpler convex parts for colliders;
 //! - [`Rows`], [`ByNode`], [`DisjointSets`]: lists, tables and sets of indices.
 //!
@@ -17,6 +18,7 @@ mod closest;
 mod convex;
 mod disjoint;
 mod drawn;
+mod eigen;
 mod hull;
 mod mass;
 #[cfg(test)]
@@ -37,6 +39,7 @@ pub use drawn::{
     Blending, Boundary, Division, Image, ImageKind, Part, Parts, Piece as DrawnPiece, Placement,
     RenderIndex, RenderMaterial, RenderSurface, Texture, TextureSlot, Wrap,
 };
+pub use eigen::symmetric_eigen;
 pub use glam;
 pub use hull::ConvexHull;
 pub use mass::MassProperties;

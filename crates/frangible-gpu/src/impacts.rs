@@ -181,18 +181,17 @@ impl Gpu {
         let asset = kind.asset();
         let jobs: Vec<Job<'_>> = group
             .par_iter()
-            .filter_map(|&i| match &begun[i] {
-                Stage::Vibrates(vibration) => Some(Job {
+            .filter_map(|&i| {
+                let Stage::Vibrates(vibration) = &begun[i] else {
+                    return None;
+                };
+                let (modal_impulse, pulse) = vibration.pulse()?;
+                Some(Job {
                     body: impacts[i].body,
-                    response: Response::new(
-                        &asset.modes,
-                        &asset.material,
-                        &vibration.modal_impulse,
-                        &vibration.pulse,
-                    ),
+                    response: Response::new(&asset.modes, &asset.material, modal_impulse, pulse),
                     vibration,
-                }),
-                Stage::Held(_) => None,
+                    pulse,
+                })
             })
             .collect();
         let limit = |body: &Body| {
@@ -268,13 +267,16 @@ fn within_range(kind: &Loaded, vibration: &Vibration, config: &FractureConfig) -
     const MOST: f64 = 1e12;
     // Integrated contact forces, the near field of walls and the mean stress over a flaw are known to the CPU only; and all modes that the GPU has
     // must be followed.
-    if !vibration.is_pulse() || config.sized_flaws || kind.asset().modes.residual_modes > 0 {
+    let Some((modal_impulse, _)) = vibration.pulse() else {
+        return false;
+    };
+    if config.sized_flaws || kind.asset().modes.residual_modes > 0 {
         return false;
     }
     let asset = kind.asset();
     let modes = &asset.modes;
     let (mut stress, mut gradient) = (0.0, 0.0);
-    for (i, impulse) in vibration.modal_impulse.iter().enumerate() {
+    for (i, impulse) in modal_impulse.iter().enumerate() {
         let amplitude = impulse.abs() / modes.eigenvalues[i].sqrt();
         stress += amplitude * f64::from(kind.root[i][0]);
         gradient += amplitude * f64::from(kind.root[i][1]);

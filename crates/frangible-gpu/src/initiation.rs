@@ -175,7 +175,7 @@ pub fn initiation_on_cpu(
     config: &FractureConfig,
     first_step: usize,
 ) -> Initiation {
-    let mut found = Initiation::none(vibration.pulse.total_steps);
+    let mut found = Initiation::none(vibration.report.time_steps);
     let mut of_tet: Vec<Option<Exceedance>> = vec![None; body.weak_tets().len()];
     let visit = |place: usize, tet, step, tensor: &Symmetric3| {
         let strength = body.strength(tet);
@@ -235,7 +235,7 @@ fn follow(
 ) {
     let asset = &**body.asset();
     let motion = vibration.motion(body);
-    let elasticity = Elasticity::new(&asset.material).with_green_lagrange(config.green_lagrange);
+    let elasticity = Elasticity::new(&asset.material).with_green_lagrange(config.is_paper());
     let places: Vec<_> = (body.weak_tets().iter())
         .map(|&tet| body.weak_place(tet, config, &vibration.pressed))
         .collect();

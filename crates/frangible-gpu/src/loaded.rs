@@ -58,7 +58,7 @@ fn pairs<'a>(stress: &'a [f32], gradient: &'a [f32]) -> impl Iterator<Item = [f3
 
 /// k of the bound's quadratic term, Pa: max(3λ, 0) + 2μ, λ and μ Lamé's parameters; none where strain is linear.
 pub(crate) fn quadratic_modulus(material: &Material, config: &FractureConfig) -> f64 {
-    if config.green_lagrange {
+    if config.is_paper() {
         (3.0 * material.lame_lambda()).max(0.0) + 2.0 * material.shear_modulus()
     } else {
         0.0

@@ -84,7 +84,7 @@ impl Gpu {
         let found = jobs.iter().zip(&wave.spans).enumerate();
         Ok(found
             .map(|(i, (job, span))| {
-                let (body, steps) = (job.body, job.vibration.pulse.total_steps);
+                let (body, steps) = (job.body, job.pulse.total_steps);
                 if span.alive == 0 {
                     Initiation::passed_over(span.bound, body, steps)
                 } else {
@@ -385,7 +385,7 @@ fn uniforms(
             quadratic_modulus(material, shared.config),
             2.0 * lambda * mu / (lambda + 2.0 * mu),
             material.youngs_modulus,
-            f64::from(u8::from(shared.config.green_lagrange)),
+            f64::from(u8::from(shared.config.is_paper())),
         ];
         words.extend(counts.map(|n| n as u32));
         words.extend(moduli.map(|x| (x as f32).to_bits()));

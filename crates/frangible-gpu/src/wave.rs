@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use frangible::internals::Vibration;
+use frangible::internals::contact::Pulse;
 use frangible::internals::stress::Law;
 use frangible::{Body, Breakable, FractureConfig};
 use rayon::prelude::*;
@@ -16,6 +17,7 @@ use crate::scratch::{MOST, WAVE};
 pub(crate) struct Job<'a> {
     pub(crate) body: &'a Body,
     pub(crate) vibration: &'a Vibration,
+    pub(crate) pulse: &'a Pulse,
     pub(crate) response: Response,
 }
 
@@ -74,7 +76,7 @@ pub(crate) fn waves(
     let modes = asset.modes.count();
     let mut waves: Vec<Wave> = Vec::new();
     for job in jobs {
-        let steps = job.vibration.pulse.total_steps;
+        let steps = job.pulse.total_steps;
         let weak = job.body.weak_tets().len();
         let too_large = |what, bytes| GpuError::TooLarge {
             what,
@@ -135,7 +137,7 @@ fn weak_words(job: &Job<'_>, config: &FractureConfig, cluster: u32, tet: u32) ->
 
 impl Wave {
     fn push(&mut self, job: &Job<'_>, limit: f32) {
-        let pulse = &job.vibration.pulse;
+        let pulse = job.pulse;
         let weak = job.body.weak_tets().len();
         let number = self.spans.len() as u32;
         let words: [u32; JOB] = [

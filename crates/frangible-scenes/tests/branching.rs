@@ -16,19 +16,12 @@ fn struck(asset: &Arc<Asset>, speed: f64, seed: u64, config: &FractureConfig) ->
 }
 
 #[test]
-fn a_harder_blow_forks_more_cracks_and_the_switch_ends_it() {
+fn a_harder_blow_forks_more_cracks() {
     let ours = FractureConfig::default();
-    let mut straight = ours.clone();
-    straight.branching = false;
     let forks = |speed| mean(6, |seed| struck(pane(), speed, seed, &ours).forks as f64);
     let [slow, middle, fast] = [3.0, 8.0, 20.0].map(forks);
     println!("forks at 3, 8, 20 m/s: {slow:.1} {middle:.1} {fast:.1}");
     assert!(slow < middle && middle < fast && fast >= 10.0);
-    for seed in 1..=3 {
-        let report = struck(pane(), 20.0, seed, &straight);
-        assert_eq!(report.forks, 0);
-        assert!(report.cracks > 0);
-    }
 }
 
 #[test]

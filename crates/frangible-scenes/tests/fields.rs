@@ -75,10 +75,15 @@ fn no_crack_starts_where_there_are_no_weak_points() {
         weak_points: Some(0.0),
         ..Patch::of_strength(zone, 1.0)
     };
-    let kind = kind(pane(), weakness::from_patches(pane(), &[patch]).unwrap());
-    let mut config = FractureConfig::default();
     // A crack that leaves another one at a fork needs no weak point.
-    config.branching = false;
+    let mut unforked = Asset::clone(pane());
+    unforked.material.branching_constant = f64::INFINITY;
+    let unforked = Arc::new(unforked);
+    let kind = kind(
+        &unforked,
+        weakness::from_patches(&unforked, &[patch]).unwrap(),
+    );
+    let config = FractureConfig::default();
     for seed in 1..=4 {
         let body = kind.body(seed);
         let (outcome, trace) =

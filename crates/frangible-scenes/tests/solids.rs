@@ -35,10 +35,11 @@ fn a_block_that_is_cracked_through_comes_apart() {
         .unwrap();
     let corner = Vec3::new(0.06, 0.045, -0.035);
     let floor = Striker::fixed(&Material::preset("stone").unwrap());
-    let contact = Contact::collision(&asset, corner, -corner.normalize(), 15.0, floor);
-    // With the stress at points and the paper's depth γ more cracks start, and run farther.
+    // At 15 m/s a third of the blocks hold, and at 40 m/s all are cracked through.
+    let contact = Contact::collision(&asset, corner, -corner.normalize(), 40.0, floor);
+    // With the stress at points more cracks start.
     let mut config = FractureConfig::default();
-    (config.sized_flaws, config.griffith_fronts) = (false, false);
+    config.sized_flaws = false;
     let largest: Vec<f64> = (1..=24)
         .map(|seed| {
             let outcome =
@@ -50,7 +51,7 @@ fn a_block_that_is_cracked_through_comes_apart() {
             fracture.fragments[0].mass.mass / asset.mass.mass
         })
         .collect();
-    println!("largest pieces at 15 m/s: {largest:.2?}");
+    println!("largest pieces at 40 m/s: {largest:.2?}");
     let mean = largest.iter().sum::<f64>() / largest.len() as f64;
     assert!(mean < 0.45, "{largest:?}");
     // A corner that breaks off may leave most of the block whole, but seldom.

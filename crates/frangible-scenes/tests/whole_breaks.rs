@@ -241,18 +241,9 @@ fn askew(config: &FractureConfig) -> f64 {
 #[test]
 fn cracks_stand_upright_in_a_pane() {
     let ours = askew(&FractureConfig::default());
-    // The tension across a crack feeds it, which hardly feeds one that lies askew; the paper's depth γ feeds all alike.
-    let mut walls = FractureConfig::default();
-    walls.griffith_fronts = false;
-    let mut centres = walls.clone();
-    (centres.surface_flaws, centres.plane_stress_walls) = (false, false);
-    let [walls, centres] = [walls, centres].map(|config| askew(&config));
-    println!(
-        "crack area more than 30° askew: {ours:.3}; fed from γ {walls:.3}, with stress as the mesh has it {centres:.3}"
-    );
+    println!("crack area more than 30° askew: {ours:.3}");
+    // The tension across a crack feeds it, which hardly feeds one that lies askew. Of faces in all directions it would be half.
     assert!(ours < 0.2, "{ours}");
-    // Without roughness in the direction of cracks, fewer are askew with the stress of the mesh, too.
-    assert!(walls < 0.8 * centres, "{walls} {centres}");
 }
 
 /// Share of the crack faces' area between 60 and 190 mm from the blow whose normals lie within 45° of the direction around it, in panes that

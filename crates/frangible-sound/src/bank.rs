@@ -29,22 +29,14 @@ pub(crate) struct Lanes {
     pub(crate) ramp_im: [f32; LANES],
 }
 
-/// One block of some resonators.
-struct Ring<'a> {
-    lanes: &'a mut [Lanes],
-    sums: &'a mut Sums,
-}
-
-impl pulp::NullaryFnOnce for Ring<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        for lanes in self.lanes {
+frangible::widest! {
+    /// Lets resonators ring for a block, and adds their sound.
+    pub(crate) fn ring_block(lanes: &mut [Lanes], sums: &mut Sums) {
+        for lanes in lanes {
             if lanes.ramp_re == [0.0; LANES] && lanes.ramp_im == [0.0; LANES] {
-                ring::<false>(lanes, self.sums);
+                ring::<false>(lanes, sums);
             } else {
-                ring::<true>(lanes, self.sums);
+                ring::<true>(lanes, sums);
             }
         }
     }
@@ -76,11 +68,6 @@ fn ring<const RAMPS: bool>(lanes: &mut Lanes, sums: &mut Sums) {
     }
     (lanes.re, lanes.im) = (re, im);
     (lanes.gain_re, lanes.gain_im) = (gain_re, gain_im);
-}
-
-/// Lets resonators ring for a block, and adds their sound.
-pub(crate) fn ring_block(arch: pulp::Arch, lanes: &mut [Lanes], sums: &mut Sums) {
-    arch.dispatch(Ring { lanes, sums });
 }
 
 /// The sums of all lanes, in a fixed order.

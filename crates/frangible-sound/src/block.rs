@@ -28,7 +28,7 @@ impl Synth {
                 continue;
             }
             bodies += 1;
-            let heard = voice.ring(self.arch, rate, now);
+            let heard = voice.ring(rate, now);
             let (ways, before) = voice.take_ways();
             match before {
                 None => mix(&mut self.coming, self.now, &ways, &heard),

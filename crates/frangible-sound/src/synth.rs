@@ -29,7 +29,6 @@ pub(crate) enum Event {
 #[derive(Clone, Debug)]
 pub struct Synth {
     pub(crate) config: SynthConfig,
-    pub(crate) arch: pulp::Arch,
     pub(crate) voices: Vec<Option<Voice>>,
     /// Events to come, by time, s, and by the order of the calls.
     pub(crate) events: VecDeque<(f64, Event)>,
@@ -57,7 +56,6 @@ impl Synth {
         let long = (longest_delay(config.rate) + 2 * BLOCK).next_power_of_two();
         Ok(Self {
             config,
-            arch: pulp::Arch::new(),
             voices: Vec::new(),
             events: VecDeque::new(),
             sorted: true,

@@ -7,53 +7,29 @@ use crate::material::OutOfRange;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct FractureConfig {
+    /// The cracks. Default: [`Model::Ours`].
+    #[doc(hidden)]
+    pub model: Model,
     /// Contact duration model. Default: [`DurationModel::Integrated`].
     pub duration: DurationModel,
     /// Lengthens a contact with given impulse and duration until the body's vibration has no more energy than the impact supplied.
     /// Default: off, because an integrated blow does not need it.
     pub admissible_duration: bool,
-    /// Includes the static response of the modes that are not integrated through time, as the residual vector. Default: on. The paper
-    /// omits these modes.
+    /// Includes the static response of the modes that are not integrated through time, as the residual vector, in integrated blows, blasts and
+    /// sustained loads. Default: on. The paper omits these modes.
     pub residual: bool,
     /// Theory for the near field of contacts on walls: the local stress and compliance under a contact that the modes do not resolve
     /// ([`near_field`](crate::internals::near_field)). Default: elastic layer. The paper has no near field.
     pub near_field: Option<PlateTheory>,
-    /// Limits the total energy of all cracks of an impact to its peak strain energy. Default: on.
-    pub energy_ledger: bool,
     /// Skips time steps and places whose stress bound stays below the strength. Affects only speed: the result is bit-identical
     /// without it. Default: on.
     pub culling: bool,
     /// Time steps per period of the highest relevant mode; 2 is the Nyquist limit, 0.5 is `[G12 Eq. 3]` as printed.
     /// Above 0.1 and at most 1000. Default 8. Stress is interpolated linearly between time steps.
     pub samples_per_period: f64,
-    /// Timing of the cracks. Default: [`CrackTiming::TimeResolved`].
-    pub timing: CrackTiming,
-    /// Path of the cracks. Default: [`CrackPath::Steered`].
-    pub path: CrackPath,
-    /// Uses the Green–Lagrange strain with its quadratic terms `[G12 §4.4]`. Default: off, strain is linear. Modes move every point along a
-    /// straight line, so a rotation in a swinging thin body comes with a spurious stretch: a rotation of 0.03 stretches by 5e-4, the failure
-    /// strain of glass. The quadratic terms include that stretch, the linear strain does not.
-    pub green_lagrange: bool,
-    /// Places a weak point on the free outer face of its tetrahedron, if it has one, where no traction acts, so that strengths are
-    /// surface strengths. Default: on. In the paper it lies at the centre of the tetrahedron `[G12 §4.4]`.
-    pub surface_flaws: bool,
     /// Gives each weak point the flaw size that follows from its strength by Griffith's criterion, and averages the stress over that flaw.
     /// Default: on. In the paper it is a point `[G12 §4.4]`.
     pub sized_flaws: bool,
-    /// Assumes plane stress, without traction through the thickness, in walls that are one layer of tetrahedra thick. Default: on. The
-    /// paper uses the stress of the analysis mesh, including its noise through the thickness.
-    pub plane_stress_walls: bool,
-    /// Applies the energy criterion also to the tetrahedron where a crack starts. Default: on. `[G12 Algorithm 2]` does not.
-    pub first_element_pays: bool,
-    /// Uses Griffith's energy release rate for the current size of a crack and the tension across it, so that a cracked body is weaker.
-    /// Default: on. The paper uses the strain energy of a layer of depth γ for cracks of all sizes.
-    pub griffith_fronts: bool,
-    /// Lets cracks branch: at a fork, when a crack has run far enough under sufficient tension, and behind another crack that opens from the
-    /// opposite face of a wall. Default: on. Cracks in the paper never branch.
-    pub branching: bool,
-    /// Extends a crack into the crack that it meets, so that no bridge of one tetrahedron connects the pieces. Default: on. In the paper
-    /// it stops at the face `[G12 §5.2.4]`.
-    pub ends_inside: bool,
     /// Assumed duration of sustained loads, s: with static fatigue, glass that holds for a second may fail within a year
     /// ([`Fields::fatigue`](crate::internals::Fields::fatigue)). Worlds add the time for which a load has lasted in them. Zero or more.
     /// Default 1. Has no effect on blows.
@@ -62,6 +38,28 @@ pub struct FractureConfig {
     /// area. Default 2e-4.
     pub crumb_share: f64,
 }
+
+/// Model of the cracks.
+#[doc(hidden)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Model {
+    /// Cracks start at flaws on the free surface, where no traction acts, and in walls under plane stress. They run at a finite speed, steered until no
+    /// shear acts across them, fork, pass one another in walls and end inside the tetrahedron of a crack that they meet. Griffith's energy release
+    /// rate feeds them, and together they spend no more than the peak strain energy. Strain is linear, as modes are: they move every point along a
+    /// straight line, so quadratic strain takes a rotation of 0.03 in a swinging thin body for a stretch of 5e-4, the failure strain of glass.
+    #[default]
+    Ours,
+    /// The cracks of `[G12 §4.4-5]`, for comparison: Green and Lagrange's strain at centres of tetrahedra; each crack runs at once, breadth-first
+    /// over a noisy plane, into every neighbour that the plane crosses; the strain energy of a layer of depth γ feeds it, but for its first
+    /// tetrahedron, and it stops at the face of another one.
+    Paper,
+}
+
+/// Speed of cracks over that of Rayleigh waves.
+const CRACK_SPEED: f64 = 0.5;
+
+/// Length over which a crack turns completely, m.
+const TURNING_LENGTH: f64 = 0.0067;
 
 /// Plate theory for waves that are short against the wall's thickness.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -91,56 +89,17 @@ pub enum DurationModel {
     },
 }
 
-/// Timing of the cracks.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum CrackTiming {
-    /// Each crack runs to its full length, breadth-first, at the moment it starts, without interaction between cracks `[G12 §5]`.
-    /// Initiation ends with the contact.
-    Instant,
-    /// Cracks run at a finite speed and emit release waves that unload the adjacent material.
-    TimeResolved {
-        /// Crack speed over the Rayleigh wave speed. Default 0.5.
-        speed: f64,
-    },
-}
-
-/// Path of the cracks.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum CrackPath {
-    /// A noisy plane, fixed when the crack starts `[G12 Eq. 6-10]`. The crack enters every neighbour that the plane crosses, even if
-    /// it misses the face between them `[G12 §5.2.2]`.
-    Planar,
-    /// A plane that turns as the crack grows, until no shear acts across it.
-    Steered {
-        /// Length over which the crack turns completely, m. Default 0.0067.
-        turning_length: f64,
-    },
-}
-
 impl Default for FractureConfig {
     fn default() -> Self {
         Self {
+            model: Model::Ours,
             duration: DurationModel::Integrated,
             admissible_duration: false,
             residual: true,
             near_field: Some(PlateTheory::Layer),
-            energy_ledger: true,
             culling: true,
             samples_per_period: 8.0,
-            timing: CrackTiming::TimeResolved { speed: 0.5 },
-            path: CrackPath::Steered {
-                turning_length: 0.0067,
-            },
-            green_lagrange: false,
-            surface_flaws: true,
             sized_flaws: true,
-            plane_stress_walls: true,
-            first_element_pays: true,
-            griffith_fronts: true,
-            branching: true,
-            ends_inside: true,
             load_duration: 1.0,
             crumb_share: 2e-4,
         }
@@ -171,22 +130,6 @@ impl FractureConfig {
                 "above 0 and at most 1000",
             )?;
         }
-        if let CrackTiming::TimeResolved { speed } = self.timing {
-            within(
-                "`timing: TimeResolved.speed` of the fracture configuration",
-                speed,
-                1.0,
-                "above 0 and at most 1",
-            )?;
-        }
-        if let CrackPath::Steered { turning_length } = self.path {
-            within(
-                "`path: Steered.turning_length` of the fracture configuration",
-                turning_length,
-                10.0,
-                "above 0 and at most 10 m",
-            )?;
-        }
         let duration = self.load_duration;
         OutOfRange::unless(
             duration.is_finite() && duration >= 0.0,
@@ -205,10 +148,23 @@ impl FractureConfig {
         Ok(())
     }
 
-    /// Returns true if blows are integrated, or contacts have anything beside the modes that are followed: their forces are then followed with
-    /// the body, substep by substep.
-    pub(crate) fn has_complement(&self) -> bool {
-        self.duration == DurationModel::Integrated || self.residual || self.near_field.is_some()
+    /// Returns true if the cracks are those of the paper.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn is_paper(&self) -> bool {
+        self.model == Model::Paper
+    }
+
+    /// Speed of cracks over that of Rayleigh waves; none where they run at once.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn crack_speed(&self) -> Option<f64> {
+        (!self.is_paper()).then_some(CRACK_SPEED)
+    }
+
+    /// Length over which a crack turns completely, m; none where it is planar.
+    pub(crate) fn turning_length(&self) -> Option<f64> {
+        (!self.is_paper()).then_some(TURNING_LENGTH)
     }
 
     /// Settings for given impulses: the extended crack model under half-sine forces with the engine's impulses, whose duration follows Hertz's law
@@ -232,21 +188,12 @@ impl FractureConfig {
     #[must_use]
     pub fn as_in_the_paper() -> Self {
         Self {
+            model: Model::Paper,
             duration: DurationModel::ModalHertz,
             residual: false,
             near_field: None,
             samples_per_period: 16.0,
-            energy_ledger: false,
-            timing: CrackTiming::Instant,
-            path: CrackPath::Planar,
-            green_lagrange: true,
-            surface_flaws: false,
             sized_flaws: false,
-            plane_stress_walls: false,
-            first_element_pays: false,
-            griffith_fronts: false,
-            branching: false,
-            ends_inside: false,
             ..Self::default()
         }
     }

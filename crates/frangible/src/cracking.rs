@@ -4,7 +4,7 @@ use web_time::Instant;
 
 use crate::blow::{Apart, Blow, Groups};
 use crate::body::Body;
-use crate::config::{CrackTiming, FractureConfig};
+use crate::config::FractureConfig;
 use crate::crack::{CrackSystem, Peak, StressField, Suspects, crack};
 use crate::fragment::{self, Labels, Volumes};
 use crate::motion::{DisplacementBatch, Motion};
@@ -30,15 +30,38 @@ pub(crate) enum Cracked<'a> {
 pub(crate) struct Cracking<'a> {
     pub(crate) body: &'a Body,
     pub(crate) config: &'a FractureConfig,
-    pub(crate) motion: Motion,
+    pub(crate) moves: Moves,
     /// Surface triangles under a contact.
     pub(crate) pressed: Vec<u32>,
     /// Time step of the motion, s.
     pub(crate) time_step: f64,
     /// Energy that the cracks may spend, where a ledger is kept, J.
     pub(crate) budget: f64,
-    /// The blow that the motion comes from: it goes on with the pieces that part.
-    pub(crate) blow: Option<Box<Blow>>,
+}
+
+/// Origin of the motion that opens cracks.
+pub(crate) enum Moves {
+    /// A motion that cracks do not change.
+    Given(Motion),
+    /// A blow: it goes on with the pieces that part.
+    Blow(Box<Blow>),
+}
+
+impl Moves {
+    /// The motion as far as it is known.
+    pub(crate) fn motion(&self) -> &Motion {
+        match self {
+            Self::Given(motion) => motion,
+            Self::Blow(blow) => blow.motion(),
+        }
+    }
+
+    fn blow(&self) -> Option<&Blow> {
+        match self {
+            Self::Given(_) => None,
+            Self::Blow(blow) => Some(blow),
+        }
+    }
 }
 
 /// Reason why the cracks have paused.
@@ -110,7 +133,7 @@ impl<'a> Cracking<'a> {
         let mut system = CrackSystem::new(body, config, self.budget);
         let mut suspects = Suspects::default();
         let mut displacement = DisplacementBatch::new(&body.asset);
-        let mut culling = Culling::new(body, config, &self.motion);
+        let mut culling = Culling::new(body, config, self.moves.motion());
         (culling.passed_over, culling.as_weakest) = (looked.passed_over, looked.as_weakest);
         // From the beginning of its batch, so that every batch is whole.
         let mut step = first_step / STRIDE * STRIDE;
@@ -125,28 +148,27 @@ impl<'a> Cracking<'a> {
                 &mut looked,
                 &mut report,
             );
-            let (Some(blow), motion) = (&mut self.blow, &mut self.motion) else {
+            let Moves::Blow(blow) = &mut self.moves else {
                 break;
             };
             let start = Instant::now();
             match stop {
                 Stop::End => break,
                 Stop::Asks => {
-                    step = motion.steps();
-                    if !blow.go_further(motion) {
+                    step = blow.motion().steps();
+                    if !blow.go_further() {
                         break;
                     }
                 }
                 Stop::Changed(from, changed) => {
                     step = from;
-                    blow.go_on(body, step, &changed.contacts, changed.groups, motion);
+                    blow.go_on(body, step, &changed.contacts, changed.groups);
                     displacement.forget();
                     system.releases.forget_batch();
-                    suspects.forget_motion();
                 }
             }
             // A shorter blow brings less in the end.
-            if let Some(most) = blow.most_energy(motion) {
+            if let Some(most) = blow.most_energy() {
                 system.ledger.cap(most);
             }
             report.timings.response += start.elapsed().as_secs_f64();
@@ -155,17 +177,12 @@ impl<'a> Cracking<'a> {
         looked.asked_clusters = culling.asked_clusters;
         looked.passed_over = culling.passed_over.max(most);
         looked.as_weakest = culling.as_weakest.max(felt);
-        if let Some(blow) = &mut self.blow {
+        if let Moves::Blow(blow) = &mut self.moves {
             let start = Instant::now();
-            blow.end_contacts(&mut self.motion);
-            report.contacts = blow.reports();
-            report.blow_energy = blow.accounts();
-            report.contact_duration = blow.duration();
-            report.time_steps = self.motion.steps();
+            blow.end_contacts();
+            report.take_blow(blow);
             report.timings.response += start.elapsed().as_secs_f64();
         }
-        report.peak_elastic_energy = self.motion.peak_energy;
-        report.peak_strain_energy = self.motion.peak_strain_energy;
         self.end(system, grown, looked, report, trace)
     }
 
@@ -179,7 +196,7 @@ impl<'a> Cracking<'a> {
         looked: &mut Looked,
         report: &mut ImpactReport,
     ) -> Stop {
-        let (body, config, motion) = (self.body, self.config, &self.motion);
+        let (body, config, motion) = (self.body, self.config, self.moves.motion());
         let mut field = StressField::new(body, config, motion, &self.pressed, displacement);
         let mut roots = [0.0; BATCH];
         for step in first_step..motion.steps() {
@@ -190,7 +207,7 @@ impl<'a> Cracking<'a> {
             field.step = step;
             system.ledger.come(motion.strain_energy_until(step));
             if step > first_step
-                && let Some(blow) = &self.blow
+                && let Some(blow) = self.moves.blow()
             {
                 let start = Instant::now();
                 let changed = self.look(blow, step, system, grown);
@@ -240,7 +257,7 @@ impl<'a> Cracking<'a> {
         };
         let mut groups = None;
         // Cracks that run at once feel neither each other nor that a piece has parted.
-        if matches!(self.config.timing, CrackTiming::TimeResolved { .. }) {
+        if !self.config.is_paper() {
             let (index, mesh) = (&self.body.prepared.index, &self.body.asset.fracture);
             let progress = system.progress();
             let labels = match grown.pieces.take() {
@@ -255,7 +272,7 @@ impl<'a> Cracking<'a> {
                 let acts;
                 (groups, acts) = blow.groups(self.body, (of_node, labels.count), step);
                 let free = Volumes::of(&labels, index).free(&acts);
-                let now = self.motion.begin(step, self.time_step);
+                let now = blow.motion().begin(step, self.time_step);
                 let speed = self.body.asset.material.rayleigh_speed();
                 system
                     .rest
@@ -277,23 +294,13 @@ impl<'a> Cracking<'a> {
     ) -> Cracked<'a> {
         let body = self.body;
         let peak = looked.peak;
-        if let Some(first) = system.cracks.get(system.old_cracks) {
-            report.first_crack_time = first.elements.first().map(|cut| cut.time);
-            report.first_crack_point = Some(first.frame.origin - body.origin().as_vec3());
-        }
+        report.take_motion(self.moves.motion());
+        report.take_cracks(&system, body);
         if report.looked_at == LookedAt::Amplitudes && looked.asked_clusters {
             report.looked_at = LookedAt::Clusters;
         }
-        report.peak_stress = f64::from(peak.tension);
-        if peak.tension > 0.0 {
-            let place = body.prepared.centroids[peak.tet as usize].as_dvec3();
-            report.peak_point = Some((place - body.origin()).as_vec3());
-        }
+        report.take_peak(peak, body);
         report.stress_bound = f64::from(peak.tension.max(looked.passed_over));
-        report.cracks = system.cracks.len() - system.old_cracks;
-        report.forks = system.forks;
-        report.crack_area = system.area;
-        report.fracture_energy = system.ledger.spent();
         let margin = report.strength / f64::from(peak.as_weakest.max(looked.as_weakest));
         if system.area == 0.0 && trace.is_none() {
             return Cracked::Held(margin, report, None);
@@ -308,15 +315,19 @@ impl<'a> Cracking<'a> {
         };
         report.timings.labels += start.elapsed().as_secs_f64();
         if let Some(trace) = trace {
-            *trace = CrackTrace::of(&system, &labels.of_node, self.motion, self.pressed);
+            *trace = CrackTrace::of(
+                &system,
+                &labels.of_node,
+                self.moves.motion().clone(),
+                self.pressed,
+            );
         }
-        report.arrivals = system.arrivals();
         if labels.count < 2 {
             let grown = system.area > 0.0;
             let state = grown.then(|| Box::new(BodyState::of(&system.cracks)));
             Cracked::Held(margin, report, state)
         } else {
-            let apart = self.blow.and_then(|blow| blow.apart(body));
+            let apart = self.moves.blow().and_then(|blow| blow.apart(body));
             Cracked::Parted(system, labels, apart, report)
         }
     }

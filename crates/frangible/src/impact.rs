@@ -4,12 +4,11 @@ use std::sync::Arc;
 
 use web_time::Instant;
 
-use crate::asset::Asset;
 use crate::blow::Blow;
 use crate::body::Body;
 use crate::config::{DurationModel, FractureConfig};
-use crate::contact::{self, Contact, Load, Pulse};
-use crate::cracking::{Cracked, Cracking};
+use crate::contact::{self, Contact, Pulse};
+use crate::cracking::{Cracked, Cracking, Moves};
 use crate::error::InputError;
 use crate::fragment::{self, Breakup, Built};
 use crate::motion::{self, Motion};
@@ -83,16 +82,26 @@ pub enum Stage {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Vibration {
-    /// Modal impulse of every mode, N·s/√kg.
-    pub modal_impulse: Vec<f64>,
     /// Surface triangles under its contacts: their flaws are pressed together, see [`Body::weak_place`].
     pub pressed: Vec<u32>,
-    /// The pulse of unit impulse and its time steps.
-    pub pulse: Pulse,
     /// Report of the impact so far.
     pub report: ImpactReport,
-    /// The blow, where it was followed with the body: then the modes are not all there is, and `pulse` only says how long it was.
-    pub(crate) blow: Option<Box<Blow>>,
+    /// The force on the modes.
+    pub drive: Drive,
+}
+
+/// The force on the modes of a body.
+#[derive(Clone, Debug)]
+pub enum Drive {
+    /// A half-sine of given impulses, which the modes alone answer.
+    Pulse {
+        /// Modal impulse of every mode, N·s/√kg.
+        modal_impulse: Vec<f64>,
+        /// The pulse of unit impulse and its time steps.
+        pulse: Pulse,
+    },
+    /// A blow, followed with the body.
+    Blow(Box<Blow>),
 }
 
 impl Vibration {
@@ -108,25 +117,33 @@ impl Vibration {
         begin(body, contacts, config, config.culling)
     }
 
-    /// Returns true if the pulse and the modes are the whole motion. Else the blow was followed with the body, or the modes left out count.
+    /// Modal impulse and pulse, where they and the modes are the whole motion.
     #[must_use]
-    pub fn is_pulse(&self) -> bool {
-        self.blow.is_none()
+    pub fn pulse(&self) -> Option<(&[f64], &Pulse)> {
+        match &self.drive {
+            Drive::Pulse {
+                modal_impulse,
+                pulse,
+            } => Some((modal_impulse, pulse)),
+            Drive::Blow(_) => None,
+        }
     }
 
     /// Amplitudes of the modes over time.
     #[must_use]
     pub fn motion(&self, body: &Body) -> Motion {
-        if let Some(blow) = &self.blow {
-            return blow.motion.clone();
+        match &self.drive {
+            Drive::Pulse {
+                modal_impulse,
+                pulse,
+            } => motion::respond(
+                &body.asset.modes,
+                &body.asset.material,
+                modal_impulse,
+                pulse,
+            ),
+            Drive::Blow(blow) => blow.motion().clone(),
         }
-        let asset = &*body.asset;
-        motion::respond(
-            &asset.modes,
-            &asset.material,
-            &self.modal_impulse,
-            &self.pulse,
-        )
     }
 
     /// Ends the impact. With `first_step` 0 this is [`impact()`](crate::impact()); time steps before it are passed over.
@@ -164,24 +181,23 @@ impl Vibration {
         config: &'a FractureConfig,
     ) -> (Cracking<'a>, ImpactReport) {
         let clock = Instant::now();
-        let motion = match &mut self.blow {
-            Some(blow) => std::mem::take(&mut blow.motion),
-            None => self.motion(body),
+        let moves = match self.drive {
+            Drive::Blow(blow) => Moves::Blow(blow),
+            Drive::Pulse { .. } => Moves::Given(self.motion(body)),
         };
         self.report.timings.response += clock.elapsed().as_secs_f64();
         // Friction pushes as it did in the engine, and what it brings is not followed: cracks have only what the approach brought.
-        let most = match &self.blow {
-            Some(blow) if blow.is_of_strikers() => self.report.approach_energy,
+        let most = match &moves {
+            Moves::Blow(blow) if blow.is_of_strikers() => self.report.approach_energy,
             _ => f64::INFINITY,
         };
         let cracking = Cracking {
             body,
             config,
             pressed: self.pressed,
-            time_step: self.pulse.time_step,
-            budget: motion.peak_strain_energy.min(most),
-            motion,
-            blow: self.blow,
+            time_step: self.report.time_step,
+            budget: moves.motion().peak_strain_energy.min(most),
+            moves,
         };
         (cracking, self.report)
     }
@@ -197,7 +213,7 @@ fn begin(
     contacts.iter().try_for_each(Contact::validate)?;
     config.validate()?;
     let contacts = &*contact::in_one(contacts);
-    let mut report = report_on(body);
+    let mut report = ImpactReport::of(body);
     report.approach_energy = contact::approach_energy(contacts);
     let clock = Instant::now();
 
@@ -210,10 +226,9 @@ fn begin(
         return Ok(held(margin, report));
     }
 
-    let vibration = if config.has_complement() {
-        integrated(body, contacts, config, &mut report)
-    } else {
-        given(body, contacts, config, &mut report)
+    let vibration = match config.duration {
+        DurationModel::Integrated => integrated(body, contacts, config, &mut report),
+        _ => given(body, contacts, config, &mut report),
     };
     report.timings.response = clock.elapsed().as_secs_f64();
     Ok(match vibration {
@@ -245,8 +260,15 @@ fn given(
     if load.touches.is_empty() {
         return None;
     }
-    (report.unadjusted_duration, report.contact_duration) =
-        durations(asset, &load, contacts, config);
+    let duration = contact::contact_duration(asset, &load, config.duration);
+    report.unadjusted_duration = duration;
+    // Nothing lengthens a script.
+    let strikes = load.touches.iter().any(|t| !t.contact.is_script());
+    report.contact_duration = if config.admissible_duration && strikes {
+        contact::admissible_duration(asset, &load, report.approach_energy, duration)
+    } else {
+        duration
+    };
     let pulse = contact::pulse(asset, &load, report.contact_duration, config);
     report.looked_at = LookedAt::Amplitudes;
     report.time_step = pulse.time_step;
@@ -255,29 +277,12 @@ fn given(
         .map_or(0.0, |i| asset.modes.frequency(i));
     Some(Vibration {
         pressed: load.pressed(),
-        modal_impulse: load.modal_impulse,
-        pulse,
         report: ImpactReport::default(),
-        blow: None,
+        drive: Drive::Pulse {
+            modal_impulse: load.modal_impulse,
+            pulse,
+        },
     })
-}
-
-/// Duration of contacts whose impulses are given, s, as it is and lengthened where it has to be admissible. Nothing lengthens that of
-/// a script.
-fn durations(
-    asset: &Asset,
-    load: &Load,
-    contacts: &[Contact],
-    config: &FractureConfig,
-) -> (f64, f64) {
-    let duration = contact::contact_duration(asset, load, config.duration);
-    let strikes = load.touches.iter().any(|t| !t.contact.is_script());
-    let longer = if config.admissible_duration && strikes {
-        contact::admissible_duration(asset, load, contact::approach_energy(contacts), duration)
-    } else {
-        duration
-    };
-    (duration, longer)
 }
 
 /// The blow, followed with the body. None where nothing pushes.
@@ -287,42 +292,20 @@ fn integrated(
     config: &FractureConfig,
     report: &mut ImpactReport,
 ) -> Option<Vibration> {
-    let mut unadjusted = f64::INFINITY;
-    let blow = if config.duration == DurationModel::Integrated {
-        Blow::of_valid(body, contacts, config, None)?
-    } else {
-        // Every contact is a half-sine of its impulse; a script says itself how long it lasts.
-        let strikes = |c: &&Contact| !c.is_script() && c.pushes(config.duration);
-        let load = contact::modal_load(body, contacts.iter().filter(strikes));
-        let mut scripts = contacts.to_vec();
-        if !load.touches.is_empty() {
-            let duration;
-            (unadjusted, duration) = durations(&body.asset, &load, contacts, config);
-            let strikers = scripts.iter_mut().filter(|c| strikes(&&**c));
-            strikers.for_each(|c| c.duration = duration as f32);
-        }
-        Blow::of_valid(body, &scripts, config, None)?
-    };
+    let blow = Blow::of_valid(body, contacts, config, None)?;
     let asset = &*body.asset;
-    if config.duration == DurationModel::Integrated {
-        report.approach_energy = blow.approach_energy();
-    }
-    report.unadjusted_duration = blow.expected_duration().min(unadjusted);
-    report.contact_duration = blow.duration();
+    report.approach_energy = blow.approach_energy();
+    report.unadjusted_duration = blow.expected_duration();
     report.looked_at = LookedAt::Amplitudes;
     report.time_step = blow.time_step();
-    report.time_steps = blow.motion.steps();
-    report.contacts = blow.reports();
-    report.blow_energy = blow.accounts();
+    report.take_blow(&blow);
     let modal_impulse = blow.modal_impulse();
     report.most_excited_frequency =
         contact::most_excited_mode(asset, &modal_impulse).map_or(0.0, |i| asset.modes.frequency(i));
     Some(Vibration {
         pressed: blow.pressed(),
-        modal_impulse,
-        pulse: blow.pulse(),
         report: ImpactReport::default(),
-        blow: Some(Box::new(blow)),
+        drive: Drive::Blow(Box::new(blow)),
     })
 }
 
@@ -372,13 +355,4 @@ pub(crate) fn pieces(body: &Body, cracked: Cracked<'_>) -> Outcome {
         report,
         breakup: Some(Arc::new(breakup)),
     }))
-}
-
-/// A report with what is known of every load.
-pub(crate) fn report_on(body: &Body) -> ImpactReport {
-    ImpactReport {
-        strength: body.resistance.weakest,
-        weak_points: body.weak_tets().len(),
-        ..ImpactReport::default()
-    }
 }

@@ -52,6 +52,13 @@ pub mod material {
     pub use frangible_material::*;
 }
 
+/// Dispatch to the widest vectors of the processor.
+#[doc(hidden)]
+pub mod vectors {
+    pub use crate::vectors::*;
+    pub use pulp::NullaryFnOnce;
+}
+
 /// Tetrahedra and surfaces.
 pub mod mesh {
     pub use frangible_geometry::*;
@@ -96,12 +103,12 @@ pub mod stress {
 }
 
 pub use crate::asset::AssetFileError;
-pub use crate::config::{CrackPath, CrackTiming, DurationModel};
+pub use crate::config::{DurationModel, Model};
 pub use crate::crack::ShownStress;
 pub use crate::fields::{Factors, Fields};
 #[doc(hidden)]
 pub use crate::fragment::{CutEdge, interfaces_of_labels, pieces_of_cuts};
-pub use crate::impact::{Stage, Vibration, impact_traced};
+pub use crate::impact::{Drive, Stage, Vibration, impact_traced};
 pub use crate::loads::{Blast, Force, LoadClock, blast, follow, follow_traced, fracture_at, rest};
 pub use crate::mesh::{MassProperties, RenderMesh, TetMesh, box_projection};
 pub use crate::outcome::{LookedAt, StageTimings};

@@ -16,6 +16,9 @@
 
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
+#[macro_use]
+mod vectors;
+
 mod asset;
 mod blow;
 mod body;
@@ -42,7 +45,6 @@ mod state;
 mod stress;
 mod tips;
 mod trace;
-mod vectors;
 
 use frangible_geometry as mesh;
 use frangible_material as material;

@@ -4,7 +4,11 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
 
+use crate::blow::Blow;
+use crate::body::Body;
+use crate::crack::{CrackSystem, Peak};
 use crate::fragment::Breakup;
+use crate::motion::Motion;
 use crate::state::BodyState;
 
 pub use crate::blow::BlowEnergy;
@@ -149,6 +153,53 @@ pub struct ImpactReport {
     pub blow_energy: BlowEnergy,
     /// Wall-clock time of each stage.
     pub timings: StageTimings,
+}
+
+impl ImpactReport {
+    /// A report with what is known of every load.
+    pub(crate) fn of(body: &Body) -> Self {
+        Self {
+            strength: body.resistance.weakest,
+            weak_points: body.weak_tets().len(),
+            ..Self::default()
+        }
+    }
+
+    /// Takes over the contacts of a blow.
+    pub(crate) fn take_blow(&mut self, blow: &Blow) {
+        self.contacts = blow.reports();
+        self.blow_energy = blow.accounts();
+        self.contact_duration = blow.duration();
+        self.time_steps = blow.motion().steps();
+    }
+
+    /// Takes over the energies of the motion.
+    pub(crate) fn take_motion(&mut self, motion: &Motion) {
+        self.peak_elastic_energy = motion.peak_energy;
+        self.peak_strain_energy = motion.peak_strain_energy;
+    }
+
+    /// Takes over the largest stress.
+    pub(crate) fn take_peak(&mut self, peak: Peak, body: &Body) {
+        self.peak_stress = f64::from(peak.tension);
+        if peak.tension > 0.0 {
+            let place = body.prepared.centroids[peak.tet as usize].as_dvec3();
+            self.peak_point = Some((place - body.origin()).as_vec3());
+        }
+    }
+
+    /// Takes over the cracks.
+    pub(crate) fn take_cracks(&mut self, system: &CrackSystem, body: &Body) {
+        if let Some(first) = system.cracks.get(system.old_cracks) {
+            self.first_crack_time = first.elements.first().map(|cut| cut.time);
+            self.first_crack_point = Some(first.frame.origin - body.origin().as_vec3());
+        }
+        self.cracks = system.cracks.len() - system.old_cracks;
+        self.forks = system.forks;
+        self.crack_area = system.area;
+        self.fracture_energy = system.ledger.spent();
+        self.arrivals = system.arrivals();
+    }
 }
 
 /// Wall-clock times of the stages of an impact, s. The only non-deterministic output.

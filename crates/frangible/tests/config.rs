@@ -1,7 +1,7 @@
 //! A configuration whose numbers cannot be used is refused by every load, by the name of the field.
 
 use frangible::glam::Vec3;
-use frangible::internals::{Blast, CrackPath, CrackTiming, DurationModel, Force};
+use frangible::internals::{Blast, DurationModel, Force};
 use frangible::{Body, Breakable, Contact, FractureConfig, InputError, Striker};
 
 use crate::common::{Size, synthetic_asset};
@@ -64,16 +64,6 @@ fn a_configuration_with_a_number_out_of_its_range_is_refused_by_every_load() {
             (
                 "samples_per_period",
                 of(&|c: &mut FractureConfig| c.samples_per_period = x),
-            ),
-            (
-                "speed",
-                of(&|c: &mut FractureConfig| c.timing = CrackTiming::TimeResolved { speed: x }),
-            ),
-            (
-                "turning_length",
-                of(&|c: &mut FractureConfig| {
-                    c.path = CrackPath::Steered { turning_length: x };
-                }),
             ),
             (
                 "AsPrinted.c",

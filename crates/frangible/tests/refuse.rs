@@ -5,7 +5,7 @@ use crate::common::Numbers;
 use frangible::glam::Vec3;
 use frangible::internals::blow::Blow;
 use frangible::internals::{Blast, blast, impact_traced, rest_margin_at_least};
-use frangible::internals::{DurationModel, Factors, Fields, Force, LookedAt, is_harmless, rest};
+use frangible::internals::{Factors, Fields, Force, LookedAt, is_harmless, rest};
 use frangible::{Breakable, Contact, FractureConfig, Outcome, Striker, impact, would_break};
 
 fn without_bounds(config: &FractureConfig) -> FractureConfig {
@@ -135,45 +135,6 @@ fn a_refused_contact_allocates_nothing() {
     });
     assert!(all);
     assert_eq!(counted.count_total, 0, "{counted:?}");
-}
-
-/// A bound looks at the contacts that the model applies, with the forces that it gives them: strikers all last as long as the shortest of
-/// them, scripts as long as they say.
-#[test]
-fn the_bounds_hold_where_hertz_gives_the_duration_and_the_modes_left_out_serve() {
-    let mut hertz = FractureConfig::default();
-    hertz.duration = DurationModel::Hertz;
-    let corner = bodies::block_hit(1e-3);
-    let asset = block().asset();
-    let grain = bodies::steel_ball(1e-6);
-    let grain = Contact::collision(asset, -corner.point, corner.point, 50.0, grain);
-    let given = |impulse: f32| Contact {
-        impulse,
-        approach_speed: 0.0,
-        ..corner.clone()
-    };
-    let script = Contact {
-        duration: 1e-2,
-        ..grain.clone()
-    };
-    let cases = [
-        ("no approach", vec![given(5.0)]),
-        ("a slow and a fast one", vec![given(0.05), grain]),
-        ("a slow one and a script", vec![given(5.0), script]),
-    ];
-    for (name, contacts) in cases {
-        let body = block().body(1);
-        let fast = impact(&body, &contacts, &hertz).unwrap();
-        let slow = impact(&body, &contacts, &without_bounds(&hertz)).unwrap();
-        let (a, b) = (fast.report(), slow.report());
-        assert!(
-            b.peak_stress > 0.1 * b.strength,
-            "{name}: {}",
-            b.peak_stress
-        );
-        assert_eq!(a.cracks, b.cracks, "{name}");
-        assert!(a.stress_bound >= b.peak_stress * (1.0 - 1e-6), "{name}");
-    }
 }
 
 /// The cheapest bound of steady loads is below what they do, wherever they act.

@@ -5,8 +5,8 @@
 
 use frangible::FractureConfig;
 use frangible::glam::Vec3;
+use frangible::internals::DurationModel;
 use frangible::internals::near_field::PlateTheory;
-use frangible::internals::{CrackPath, CrackTiming, DurationModel};
 
 /// Bytes of an input, read one after the other.
 pub(crate) struct Draw<'a> {
@@ -139,18 +139,6 @@ impl<'a> Draw<'a> {
                 c: self.size(1e-3, 10.0),
             },
         };
-        config.timing = match self.below(2) {
-            0 => CrackTiming::TimeResolved {
-                speed: self.between(0.05, 1.0),
-            },
-            _ => CrackTiming::Instant,
-        };
-        config.path = match self.below(2) {
-            0 => CrackPath::Steered {
-                turning_length: self.size(1e-4, 1.0),
-            },
-            _ => CrackPath::Planar,
-        };
         config.near_field = match self.below(3) {
             0 => Some(PlateTheory::Layer),
             1 => Some(PlateTheory::Kirchhoff),
@@ -164,16 +152,8 @@ impl<'a> Draw<'a> {
         for switch in [
             &mut config.admissible_duration,
             &mut config.residual,
-            &mut config.energy_ledger,
             &mut config.culling,
-            &mut config.green_lagrange,
-            &mut config.surface_flaws,
             &mut config.sized_flaws,
-            &mut config.plane_stress_walls,
-            &mut config.first_element_pays,
-            &mut config.griffith_fronts,
-            &mut config.branching,
-            &mut config.ends_inside,
         ] {
             *switch ^= self.flag();
         }

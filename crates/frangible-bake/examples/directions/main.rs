@@ -11,7 +11,7 @@
 //! `single`: one crack starts in the middle of the pane under a tension or a bending that is the same everywhere, at 0, 15, … 90° to the side
 //! of the pane: how far its path turns from where it should run, and how fast it runs.
 //!
-//! Options: `mesh` (seed of the fracture mesh), `tets` (how many, about), `modes`, `speed` (of cracks over the Rayleigh speed), `after` (seeds begin
+//! Options: `mesh` (seed of the fracture mesh), `tets` (how many, about), `modes`, `after` (seeds begin
 //! after this one), `spot` (the ball hits up to so far from the middle, m), `bend` (1: bending instead of tension), `round` (1: a round plate), `file`
 //! (1: a mesh as from a file, in layers along one of its faces), `turned` (degrees by which the pane of a file is turned against the axes), `list` (1:
 //! a line per break instead, which `statistics compare` of `frangible-scenes` compares with those on another mesh).
@@ -25,7 +25,7 @@ use std::error::Error;
 use std::sync::Arc;
 
 use frangible::glam::Vec3;
-use frangible::internals::{CrackTiming, Fields, impact_traced};
+use frangible::internals::{Fields, impact_traced};
 use frangible::{Asset, Breakable, Contact, FractureConfig, Material, Striker};
 use rayon::prelude::*;
 
@@ -94,10 +94,7 @@ fn breaks(asset: &Arc<Asset>, seeds: u64, speed: f64, options: &Options) -> Resu
     let fields = Fields::of_material(&asset.material);
     let kind = Breakable::new(Arc::clone(asset))?.with_fields(fields)?;
     let steel = Material::preset("steel")?;
-    let mut config = FractureConfig::default();
-    if let Some(&speed) = options.0.get("speed") {
-        config.timing = CrackTiming::TimeResolved { speed };
-    }
+    let config = FractureConfig::default();
     let spot = options.get("spot", 0.0);
     let first = options.get("after", 0.0) as u64;
     Ok((1..=seeds)

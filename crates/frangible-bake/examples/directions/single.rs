@@ -16,14 +16,14 @@ use crate::{Options, Result};
 pub(crate) fn single(options: &Options) -> Result<()> {
     let mut asset = uniform(pane(options)?);
     asset.material.roughness_amplitude = options.get("rough", 0.0);
+    asset.material.branching_constant = f64::INFINITY;
     let asset = Arc::new(asset);
     let bends = options.get("bend", 0.0) > 0.0;
     let starts = options.get("starts", 8.0) as usize;
     let over = options.get("over", 1.5);
     let mut config = FractureConfig::default();
-    (config.branching, config.energy_ledger) = (false, false);
     if options.get("planar", 0.0) > 0.0 {
-        config.path = frangible::internals::CrackPath::Planar;
+        config.model = frangible::internals::Model::Paper;
     }
     let material = &asset.material;
     let rayleigh = material.rayleigh_speed();

@@ -12,19 +12,9 @@ pub(crate) fn refused(reason: impl std::fmt::Debug) -> PieceError {
     }
 }
 
-/// The sum of products, compiled for each kind of vectors.
-struct AddProduct<'a> {
-    to: &'a mut Block,
-    a: &'a Block,
-    b: &'a Block,
-}
-
-impl pulp::NullaryFnOnce for AddProduct<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        let Self { to, a, b } = self;
+frangible::widest! {
+    /// Adds a · b.
+    pub(crate) fn add_product(to: &mut Block, a: &Block, b: &Block) {
         let (rows, inner) = (a.rows, b.rows);
         let sizes = [rows, inner, b.columns()];
         let right = Entries {
@@ -34,11 +24,6 @@ impl pulp::NullaryFnOnce for AddProduct<'_> {
         };
         portable::add_product((&mut to.data, rows), (&a.data, rows), right, sizes, 1.0);
     }
-}
-
-/// Adds a · b.
-pub(crate) fn add_product(to: &mut Block, a: &Block, b: &Block) {
-    pulp::Arch::new().dispatch(AddProduct { to, a, b });
 }
 
 /// a · b.

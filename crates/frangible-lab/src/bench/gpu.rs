@@ -216,7 +216,7 @@ fn everywhere(
         name,
         tets: body.weak_tets().len(),
         analysis_nodes: kind.asset().analysis.nodes.len(),
-        steps: vibration.pulse.total_steps,
+        steps: vibration.report.time_steps,
         cpu,
         gpu: best,
         passes: passes.iter().map(|p| (p.pass, p.seconds)).collect(),
@@ -241,7 +241,7 @@ fn of_body(
     let mut steps = 0;
     for (body, contacts) in bodies.iter().zip(&contacts) {
         if let Stage::Vibrates(vibration) = Vibration::begin(body, contacts, &config)? {
-            steps += vibration.pulse.total_steps;
+            steps += vibration.report.time_steps;
         }
     }
     let mut cpu = Solver::new(Choice::Cpu)?;

@@ -235,7 +235,7 @@ fn start(
     marked: &mut [Option<u32>],
     result: &mut Break,
 ) {
-    let (sigma, energy) = look.stress(solid, u, e);
+    let (sigma, _) = look.stress(solid, u, e);
     let material = solid.material;
     let surface = Surface::new(solid.centres[e], &sigma, material, body.seed(), e);
     let x = solid.corners(e);
@@ -247,18 +247,12 @@ fn start(
         let margins = (0..4).map(|k| surface.margin_of(x[k], values[k]));
         margin = margins.fold(margin, f64::min);
     }
-    let mut pays = true;
-    if options.first_element_pays {
-        let balance = material.energy_depth * energy / material.fracture_energy;
-        pays = balance > 1.0;
-        margin = margin.min((balance - 1.0).abs());
-    }
     for test in &mut result.starts {
         if test.step == step && test.tet == e as u32 {
             test.margin = test.margin.min(margin);
         }
     }
-    if missed || !pays {
+    if missed {
         return;
     }
     let id = result.cracks.len() as u32;

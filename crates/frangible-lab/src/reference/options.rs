@@ -19,8 +19,6 @@ pub struct Options {
     /// Beyond the paper: the waves go on after the contact, for 1.5 periods of the lowest mode that is excited to 5 % of
     /// the most excited one. Default: off.
     pub after_contact: bool,
-    /// Beyond the paper: the element where a crack starts must pay for its own area. Default: off.
-    pub first_element_pays: bool,
     /// Beyond the paper: a weak element with a free outer face is tested on the largest one, where its flaw lies and no traction acts; in a thin wall
     /// none acts across the wall. Default: off.
     pub surface_flaws: bool,
@@ -107,7 +105,6 @@ impl Default for Options {
             marks: Marks::Elements,
             admissible: false,
             after_contact: false,
-            first_element_pays: false,
             surface_flaws: false,
             between_steps: false,
             strain: Strain::GreenLagrange,
@@ -136,7 +133,6 @@ impl Options {
             duration: Duration::Hertz,
             admissible: true,
             after_contact: true,
-            first_element_pays: true,
             surface_flaws: true,
             between_steps: true,
             strain: Strain::Linear,

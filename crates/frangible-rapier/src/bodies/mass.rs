@@ -1,7 +1,7 @@
 //! Exact mass properties in Rapier's form.
 
 use frangible::internals::MassProperties as Exact;
-use frangible::internals::rigid::principal_axes;
+use frangible::internals::mesh::symmetric_eigen;
 use rapier3d::dynamics::MassProperties;
 use rapier3d::math::{Matrix, Rotation, Vector};
 
@@ -10,7 +10,7 @@ use crate::error::{WorldError, positive};
 /// Rapier's mass properties of a body whose frame has its origin at the centre of mass.
 pub(crate) fn rapier_mass(exact: &Exact) -> Result<MassProperties, WorldError> {
     positive("mass of the body (kg)", exact.mass as f32)?;
-    let (principal, axes) = principal_axes(exact.inertia);
+    let (principal, axes) = symmetric_eigen(exact.inertia);
     for moment in principal.to_array() {
         positive("principal moment of inertia (kg·m²)", moment as f32)?;
     }

@@ -1,7 +1,7 @@
 //! Checks of the fracture's switches and numbers.
 
 use frangible::FractureConfig;
-use frangible::internals::{CrackPath, CrackTiming, DurationModel};
+use frangible::internals::DurationModel;
 
 use super::Fault;
 use super::quantity::{quantity, range};
@@ -35,21 +35,6 @@ pub(super) fn check_fracture(config: &FractureConfig) -> Result<(), Fault> {
     if let DurationModel::AsPrinted { c } = config.duration {
         let must = "above 0 and at most 1000";
         range("fracture.duration", "the constant c", c, 0.0, 1000.0, must)?;
-    }
-    if let CrackTiming::TimeResolved { speed } = config.timing {
-        let must = "above 0 and at most 1";
-        range("fracture.timing", "the crack speed", speed, 0.0, 1.0, must)?;
-    }
-    if let CrackPath::Steered { turning_length } = config.path {
-        let must = "above 0 and at most 10 m";
-        range(
-            "fracture.path",
-            "the turning length",
-            turning_length,
-            0.0,
-            10.0,
-            must,
-        )?;
     }
     Ok(())
 }

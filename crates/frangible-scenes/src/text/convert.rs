@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use frangible::glam::Vec3;
+use frangible::internals::DurationModel;
 use frangible::internals::near_field::PlateTheory;
-use frangible::internals::{CrackPath, CrackTiming, DurationModel};
 use frangible::{FractureConfig, Material};
 use frangible_mesh::did_you_mean;
 
@@ -12,7 +12,7 @@ use super::body::body;
 use super::either::SwitchOrName;
 use super::schema::{
     DrawingName, DurationTable, FractureTable, KindName, MethodName, ModelName, NearFieldName,
-    OutputTable, PathTable, PiecesTable, ProjectileTable, SceneTable, TimingTable,
+    OutputTable, PiecesTable, ProjectileTable, SceneTable,
 };
 use crate::body::BodySpec;
 use crate::check::Fault;
@@ -134,20 +134,6 @@ fn fracture(table: FractureTable) -> FractureConfig {
         Some(DurationTable::ModalHertz) => config.duration = DurationModel::ModalHertz,
         Some(DurationTable::AsPrinted { c }) => config.duration = DurationModel::AsPrinted { c },
     }
-    match table.timing {
-        None => {}
-        Some(TimingTable::Instant) => config.timing = CrackTiming::Instant,
-        Some(TimingTable::TimeResolved { speed }) => {
-            config.timing = CrackTiming::TimeResolved { speed };
-        }
-    }
-    match table.path {
-        None => {}
-        Some(PathTable::Planar) => config.path = CrackPath::Planar,
-        Some(PathTable::Steered { turning_length }) => {
-            config.path = CrackPath::Steered { turning_length };
-        }
-    }
     match table.near_field {
         None => {}
         Some(NearFieldName::Off) => config.near_field = None,
@@ -159,16 +145,8 @@ fn fracture(table: FractureTable) -> FractureConfig {
     set(&mut config.samples_per_period, table.samples_per_period);
     set(&mut config.crumb_share, table.crumb_share);
     set(&mut config.load_duration, table.load_duration);
-    set(&mut config.energy_ledger, table.energy_ledger);
     set(&mut config.culling, table.culling);
-    set(&mut config.green_lagrange, table.green_lagrange);
-    set(&mut config.surface_flaws, table.surface_flaws);
     set(&mut config.sized_flaws, table.sized_flaws);
-    set(&mut config.plane_stress_walls, table.plane_stress_walls);
-    set(&mut config.first_element_pays, table.first_element_pays);
-    set(&mut config.griffith_fronts, table.griffith_fronts);
-    set(&mut config.branching, table.branching);
-    set(&mut config.ends_inside, table.ends_inside);
     config
 }
 

@@ -248,20 +248,10 @@ pub(super) struct FractureTable {
     pub(super) residual: Option<bool>,
     pub(super) near_field: Option<NearFieldName>,
     pub(super) samples_per_period: Option<f64>,
-    pub(super) timing: Option<TimingTable>,
-    pub(super) path: Option<PathTable>,
     pub(super) crumb_share: Option<f64>,
     pub(super) load_duration: Option<f64>,
-    pub(super) energy_ledger: Option<bool>,
     pub(super) culling: Option<bool>,
-    pub(super) green_lagrange: Option<bool>,
-    pub(super) surface_flaws: Option<bool>,
     pub(super) sized_flaws: Option<bool>,
-    pub(super) plane_stress_walls: Option<bool>,
-    pub(super) first_element_pays: Option<bool>,
-    pub(super) griffith_fronts: Option<bool>,
-    pub(super) branching: Option<bool>,
-    pub(super) ends_inside: Option<bool>,
 }
 
 /// Model that gives all switches and numbers that the table does not.
@@ -290,22 +280,6 @@ pub(super) enum NearFieldName {
     Off,
     Kirchhoff,
     Layer,
-}
-
-/// Timing of cracks.
-#[derive(Deserialize)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub(super) enum TimingTable {
-    Instant,
-    TimeResolved { speed: f64 },
-}
-
-/// Paths of cracks.
-#[derive(Deserialize)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub(super) enum PathTable {
-    Planar,
-    Steered { turning_length: f64 },
 }
 
 /// `[output]`.

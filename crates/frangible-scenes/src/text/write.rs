@@ -4,8 +4,8 @@ use std::fmt::{Display, Write};
 
 use frangible::FractureConfig;
 use frangible::glam::{Quat, Vec3};
+use frangible::internals::DurationModel;
 use frangible::internals::near_field::PlateTheory;
-use frangible::internals::{CrackPath, CrackTiming, DurationModel};
 
 use super::support::support_text;
 use super::values::{edit_text, list, material_text, number, quoted, shape_text, vector};
@@ -251,6 +251,9 @@ fn write_fracture(t: &mut Text, config: &FractureConfig) {
         t.line("model", quoted("paper"));
         return;
     }
+    if config.is_paper() {
+        t.line("model", quoted("paper"));
+    }
     match config.duration {
         DurationModel::ModalHertz => t.line("duration", quoted("modal_hertz")),
         DurationModel::AsPrinted { c } => {
@@ -271,38 +274,10 @@ fn write_fracture(t: &mut Text, config: &FractureConfig) {
     t.line("near_field", quoted(near_field));
     t.line("admissible_duration", config.admissible_duration);
     t.line("samples_per_period", number(config.samples_per_period));
-    match config.timing {
-        CrackTiming::TimeResolved { speed } => {
-            let speed = number(speed);
-            t.line(
-                "timing",
-                format!("{{ time_resolved = {{ speed = {speed} }} }}"),
-            );
-        }
-        _ => t.line("timing", quoted("instant")),
-    }
-    match config.path {
-        CrackPath::Steered { turning_length } => {
-            let length = number(turning_length);
-            t.line(
-                "path",
-                format!("{{ steered = {{ turning_length = {length} }} }}"),
-            );
-        }
-        _ => t.line("path", quoted("planar")),
-    }
     t.line("crumb_share", number(config.crumb_share));
     t.line("load_duration", number(config.load_duration));
-    t.line("energy_ledger", config.energy_ledger);
     t.line("culling", config.culling);
-    t.line("green_lagrange", config.green_lagrange);
-    t.line("surface_flaws", config.surface_flaws);
     t.line("sized_flaws", config.sized_flaws);
-    t.line("plane_stress_walls", config.plane_stress_walls);
-    t.line("first_element_pays", config.first_element_pays);
-    t.line("griffith_fronts", config.griffith_fronts);
-    t.line("branching", config.branching);
-    t.line("ends_inside", config.ends_inside);
 }
 
 fn write_output(t: &mut Text, output: &Output) {

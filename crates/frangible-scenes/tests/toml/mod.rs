@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use frangible::glam::{Quat, Vec3};
-use frangible::internals::{CrackPath, CrackTiming, Fatigue};
+use frangible::internals::Fatigue;
 use frangible::{FractureConfig, Material};
 use frangible_bake::weakness::{Channel, Paint, Patch, Zone};
 use frangible_bake::{Shape, Station};
@@ -226,11 +226,11 @@ fn one_word_names_the_papers_model_and_other_keys_override_it() {
     assert_eq!(fracture("model = \"ours\""), FractureConfig::default());
     let given = FractureConfig::with_given_impulses();
     assert_eq!(fracture("model = \"given_impulses\""), given);
-    let mut ledger = paper.clone();
-    ledger.energy_ledger = true;
-    ledger.samples_per_period = 4.0;
-    let keys = "samples_per_period = 4\nmodel = \"paper\"\nenergy_ledger = true";
-    assert_eq!(fracture(keys), ledger);
+    let mut sized = paper.clone();
+    sized.sized_flaws = true;
+    sized.samples_per_period = 4.0;
+    let keys = "samples_per_period = 4\nmodel = \"paper\"\nsized_flaws = true";
+    assert_eq!(fracture(keys), sized);
     let message = refused(&format!("{LEAST}[fracture]\nmodel = \"papers\""));
     assert!(
         message.contains("line 4") && message.contains("paper"),

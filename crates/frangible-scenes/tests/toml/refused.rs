@@ -23,8 +23,8 @@ fn a_misspelt_key_is_named_with_its_line_and_the_nearest() {
             "scene line 2: unknown name `vasse`, did you mean `vase`?",
         ),
         (
-            "[[body]]\nshape = \"vase\"\n[fracture]\npath = { steerd = { turning_length = 1 } }",
-            "scene line 4: unknown name `steerd`, did you mean `steered`?",
+            "[[body]]\nshape = \"vase\"\n[fracture]\nduration = \"modal_herz\"",
+            "scene line 4: unknown name `modal_herz`, did you mean `modal_hertz`?",
         ),
         // Ways that are gone are answered with those that remain.
         (
@@ -184,9 +184,9 @@ fn wrong_types_and_unusable_values_are_told_with_their_line() {
             "samples per period",
         ),
         (
-            body("[fracture]\npath = { steered = { turning_length = 0 } }"),
+            body("[fracture]\nduration = { as_printed = { c = 0 } }"),
             5,
-            "turning length",
+            "the constant c",
         ),
         (body("[output]\nglb = \"../a.glb\""), 5, "file name"),
         (

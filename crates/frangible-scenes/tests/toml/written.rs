@@ -134,10 +134,8 @@ fn an_intricate_scene_survives_writing_and_reading() {
     let absolute = |text: &str| parse_scene(text, Path::new(""));
     let text = scene_to_toml(&scene);
     assert_eq!(absolute(&text).unwrap(), scene, "{text}");
-    scene.fracture.timing = CrackTiming::TimeResolved { speed: 0.1 + 0.2 };
-    scene.fracture.path = CrackPath::Steered {
-        turning_length: 1.0 / 3.0,
-    };
+    scene.fracture = FractureConfig::default();
+    scene.fracture.load_duration = 1.0 / 3.0;
     scene.floor = Some("wood".into());
     let text = scene_to_toml(&scene);
     assert_eq!(absolute(&text).unwrap(), scene, "{text}");

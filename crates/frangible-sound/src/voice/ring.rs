@@ -19,10 +19,10 @@ impl Voice {
     }
 
     /// Computes a block of the sound at the middle of the head: the part that leaves straight to it, and the part that leaves towards the floor.
-    pub(crate) fn ring(&mut self, arch: pulp::Arch, rate: f64, now: f64) -> [[f32; BLOCK]; 2] {
+    pub(crate) fn ring(&mut self, rate: f64, now: f64) -> [[f32; BLOCK]; 2] {
         let mut sums: Sums = [[0.0; LANES]; BLOCK];
         if self.hits.is_empty() {
-            ring_block(arch, &mut self.lanes, &mut sums);
+            ring_block(&mut self.lanes, &mut sums);
         } else {
             self.find_direct();
             for i in 0..self.slots.len() {

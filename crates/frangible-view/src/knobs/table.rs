@@ -44,7 +44,7 @@ macro_rules! switch {
 const DURATIONS: [&str; 4] = ["integrated", "Hertz", "modal Hertz", "as printed"];
 
 /// All knobs, in the order of the panel.
-pub static KNOBS: [Knob; 22] = [
+pub static KNOBS: [Knob; 20] = [
     of_material!(
         "strength",
         "strength R_c",
@@ -244,18 +244,6 @@ pub static KNOBS: [Knob; 22] = [
         "culling",
         culling,
         "reject blows that cannot break the body by the bound σ₁ ≤ Σ |q_i| max|σ_i|; affects speed, not the result"
-    ),
-    switch!(
-        "ledger",
-        "energy ledger",
-        energy_ledger,
-        "limit the energy of all cracks to the peak strain energy: Σ A G_c ≤ max ½ Σ λ q²"
-    ),
-    switch!(
-        "green-lagrange",
-        "quadratic strain",
-        green_lagrange,
-        "ε = ½(∇u + ∇uᵀ + ∇uᵀ∇u) as in the paper, instead of its linear part"
     ),
     switch!(
         "sized-flaws",

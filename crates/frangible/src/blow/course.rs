@@ -7,13 +7,13 @@ use glam::DVec3;
 use super::apart::Apart;
 use super::flight::Setup;
 use super::groups::Groups;
-use super::integrate::{MOST_SUBSTEPS, Progress, Run, Softening};
+use super::integrate::{MOST_SUBSTEPS, Progress, Run, Softening, run};
 use super::parted::Parted;
 use super::plan::{Plan, Site};
 use super::record::Record;
 use super::star::Star;
 use crate::body::Body;
-use crate::config::{CrackTiming, FractureConfig};
+use crate::config::FractureConfig;
 use crate::contact::{self, Contact};
 use crate::crack::{CrackSystem, StressField};
 use crate::error::InputError;
@@ -89,7 +89,7 @@ impl Blow {
     ) -> Option<Self> {
         let plan = Plan::new(body, contacts, config, longest)?;
         let shape = |site: &Site| Residual::shape(&body.asset, &site.residual);
-        let mut motion = Motion {
+        let motion = Motion {
             modes: plan.modes,
             ..Motion::default()
         };
@@ -100,14 +100,13 @@ impl Blow {
             saved: None,
             nodes: plan.nodes(body),
             plan,
-            instant: config.timing == CrackTiming::Instant,
+            instant: config.is_paper(),
             longest: MOST_SUBSTEPS,
             softer: Vec::new(),
             parted: Vec::new(),
-            motion: Motion::default(),
+            motion,
         };
-        blow.integrate(&mut motion, usize::MAX);
-        blow.motion = motion;
+        blow.integrate(usize::MAX);
         blow.longest = (LONGER * blow.contact_steps() * blow.plan.substeps).min(MOST_SUBSTEPS);
         Some(blow)
     }
@@ -173,10 +172,8 @@ impl Blow {
     #[doc(hidden)]
     pub fn part(&mut self, body: &Body, piece_of_node: &[u32], pieces: usize, step: usize) {
         let (groups, _) = self.groups(body, (piece_of_node, pieces), step);
-        let mut motion = std::mem::take(&mut self.motion);
-        self.go_on(body, step, &[], groups, &mut motion);
-        self.integrate(&mut motion, usize::MAX);
-        self.motion = motion;
+        self.go_on(body, step, &[], groups);
+        self.integrate(usize::MAX);
     }
 
     /// Returns the stress at the weak point of fracture tetrahedron `tet` at a time step of the blow, Pa, as used for crack initiation.
@@ -253,14 +250,14 @@ impl Blow {
         step: usize,
         contacts: &[(usize, f64)],
         groups: Option<Groups>,
-        motion: &mut Motion,
     ) {
         let saved = self.saved.take().filter(|saved| saved.step <= step);
         self.progress = saved.map_or_else(|| Progress::new(&self.plan), |saved| *saved);
         self.record.forget_after(&self.progress, &self.plan);
         let energies = self.record.energies.iter().map(|e| e[0]);
-        motion.keep(self.progress.step, energies.fold(0.0, f64::max));
-        self.follow(motion, step);
+        let most = energies.fold(0.0, f64::max);
+        self.motion.keep(self.progress.step, most);
+        self.follow(step);
         self.saved = Some(Box::new(self.progress.clone()));
         let substep = step * self.plan.substeps;
         let softer = contacts.iter().map(|&(contact, compliance)| Softening {
@@ -276,32 +273,32 @@ impl Blow {
             let parted = Parted::new(body, plan, before, groups, nodes, [step, substep]);
             self.parted.push(parted);
         }
-        self.integrate(motion, self.horizon());
+        self.integrate(self.horizon());
     }
 
     /// Follows the motion some steps further. Returns false if it is over.
-    pub(crate) fn go_further(&mut self, motion: &mut Motion) -> bool {
+    pub(crate) fn go_further(&mut self) -> bool {
         let goes = !self.progress.is_over();
         if goes {
             self.saved = Some(Box::new(self.progress.clone()));
-            self.integrate(motion, self.horizon());
+            self.integrate(self.horizon());
         }
         goes
     }
 
     /// Follows the motion until the contacts have parted.
-    pub(crate) fn end_contacts(&mut self, motion: &mut Motion) {
+    pub(crate) fn end_contacts(&mut self) {
         while self.progress.after.is_none() {
-            self.integrate(motion, self.horizon());
+            self.integrate(self.horizon());
         }
     }
 
     /// Upper bound of the strain energy over the whole motion, J; none while contacts push.
-    pub(crate) fn most_energy(&self, motion: &Motion) -> Option<f64> {
+    pub(crate) fn most_energy(&self) -> Option<f64> {
         // Without pushes, the energy that is there only changes its form.
         self.progress.after?;
         let [whole, _] = self.record.energies.last()?;
-        Some(motion.peak_strain_energy.max(*whole))
+        Some(self.motion.peak_strain_energy.max(*whole))
     }
 
     /// Time step to which the motion is followed next, a few whole batches on.
@@ -320,8 +317,8 @@ impl Blow {
     }
 
     /// Follows the motion to a time step.
-    fn follow(&mut self, motion: &mut Motion, until: usize) {
-        crate::vectors::widest(Run {
+    fn follow(&mut self, until: usize) {
+        run(Run {
             setup: Setup {
                 plan: &self.plan,
                 parted: &self.parted,
@@ -332,20 +329,20 @@ impl Blow {
             until,
             progress: &mut self.progress,
             record: &mut self.record,
-            motion,
+            motion: &mut self.motion,
         });
     }
 
     /// Follows the motion to a time step, with the parts that the modes leave out.
-    fn integrate(&mut self, motion: &mut Motion, until: usize) {
+    fn integrate(&mut self, until: usize) {
         let before = self.progress.step;
-        self.follow(motion, until);
+        self.follow(until);
         let plan = &self.plan;
-        motion.coarse = (self.progress.after)
+        self.motion.coarse = (self.progress.after)
             .filter(|_| plan.coarser > 1.0)
             .map(|after| (after.near_steps, plan.coarser));
         if before < self.progress.near_steps() {
-            motion.complement =
+            self.motion.complement =
                 self.record
                     .complement(plan, &self.shapes, self.progress.near_steps());
         }

@@ -85,16 +85,15 @@ pub(super) struct Run<'a> {
     pub(super) motion: &'a mut Motion,
 }
 
-impl pulp::NullaryFnOnce for Run<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(mut self) {
-        while self.progress.after.is_none() && self.progress.step < self.until {
-            self.push();
+widest! {
+    /// Integrates until the pause, or to the end.
+    pub(super) fn run(run: Run<'_>) {
+        let mut run = run;
+        while run.progress.after.is_none() && run.progress.step < run.until {
+            run.push();
         }
-        if self.progress.after.is_some() {
-            self.ring();
+        if run.progress.after.is_some() {
+            run.ring();
         }
     }
 }

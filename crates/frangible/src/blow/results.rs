@@ -1,9 +1,7 @@
 //! Results of a blow: impulses, durations, energies, and the reports of its contacts.
 
-use std::f64::consts::PI;
-
 use super::{Blow, BlowEnergy};
-use crate::contact::{ContactReport, Pulse};
+use crate::contact::ContactReport;
 
 impl Blow {
     /// Modal impulses of the contacts, N·s/√kg, as prescribed impulses have them.
@@ -17,19 +15,6 @@ impl Blow {
             }
         }
         sums
-    }
-
-    /// Time steps of the blow, and a half-sine of its duration.
-    pub(crate) fn pulse(&self) -> Pulse {
-        let duration = self.duration().max(self.substep());
-        Pulse {
-            duration,
-            amplitude: 0.5 * PI / duration,
-            time_step: self.plan.time_step,
-            contact_steps: self.contact_steps(),
-            total_steps: self.motion.steps(),
-            longest_step: self.plan.time_step,
-        }
     }
 
     /// Duration of the contacts, s: time until the last force ends.

@@ -277,7 +277,7 @@ impl Body {
 
     /// k of the stress bounds' quadratic term, Pa.
     pub(crate) fn quadratic_modulus(&self, config: &FractureConfig) -> f32 {
-        if config.green_lagrange {
+        if config.is_paper() {
             self.prepared.quadratic_modulus
         } else {
             0.0

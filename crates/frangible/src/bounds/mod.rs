@@ -9,9 +9,7 @@ mod surface_sums;
 pub(crate) use clusters::WeakClusters;
 pub(crate) use per_impulse::PerImpulse;
 pub(crate) use reach::Reaches;
-pub(crate) use stress_bounds::{
-    quadratic_modulus, sum_of_sizes, sums_of_sizes, tension_bound, tension_bounds,
-};
+pub(crate) use stress_bounds::{quadratic_modulus, tension_bound, tension_bounds};
 pub(crate) use surface_sums::surface_sums;
 
 /// Factor on bounds that covers the rounding of sums over a few thousand terms.

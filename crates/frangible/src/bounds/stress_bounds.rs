@@ -119,7 +119,7 @@ pub(crate) fn tension_bound(amplitudes: &[f32], stress: &[f32], gradient: &[f32]
 
 /// Σ|q_i| r_i.
 #[inline(always)]
-pub(crate) fn sum_of_sizes(amplitudes: &[f32], row: &[f32]) -> f32 {
+fn sum_of_sizes(amplitudes: &[f32], row: &[f32]) -> f32 {
     const LANES: usize = 8;
     let ((amplitudes, tail), (row, row_tail)) =
         (amplitudes.as_chunks::<LANES>(), row.as_chunks::<LANES>());
@@ -150,7 +150,7 @@ pub(crate) fn tension_bounds(sizes: &[Lanes], stress: &[f32], gradient: &[f32], 
 
 /// Σ|q_i| r_i at each step, in the order of [`sum_of_sizes`].
 #[inline(always)]
-pub(crate) fn sums_of_sizes(sizes: &[Lanes], row: &[f32]) -> Lanes {
+fn sums_of_sizes(sizes: &[Lanes], row: &[f32]) -> Lanes {
     let ((sizes, tail), (row, row_tail)) = (sizes.as_chunks::<8>(), row.as_chunks::<8>());
     let mut all = Wide::default();
     // Four sums at a time stay in registers.

@@ -10,38 +10,25 @@ use crate::stress::dot;
 pub(crate) fn surface_sums<const N: usize>(asset: &Asset, rows: &[Vec<f32>; N]) -> Vec<[f32; N]> {
     let mut sums = vec![[0.0_f32; N]; asset.surface_positions().len()];
     if asset.modes.count() > 0 {
-        crate::vectors::widest(AtNodes {
-            asset,
-            rows,
-            sums: &mut sums,
-        });
+        at_nodes(asset, rows, &mut sums);
     }
     sums
 }
 
-/// The sums at all nodes of the surface.
-struct AtNodes<'a, const N: usize> {
-    asset: &'a Asset,
-    rows: &'a [Vec<f32>; N],
-    sums: &'a mut [[f32; N]],
-}
-
-impl<const N: usize> pulp::NullaryFnOnce for AtNodes<'_, N> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        let mut shapes = Shapes::new(self.rows[0].len());
-        let mut known = vec![false; self.sums.len()];
-        for (triangle, corners) in self.asset.surface.triangles.iter().enumerate() {
+widest! {
+    /// The sums at all nodes of the surface.
+    fn at_nodes[const N: usize](asset: &Asset, rows: &[Vec<f32>; N], sums: &mut [[f32; N]]) {
+        let mut shapes = Shapes::new(rows[0].len());
+        let mut known = vec![false; sums.len()];
+        for (triangle, corners) in asset.surface.triangles.iter().enumerate() {
             for (k, &node) in corners.iter().enumerate() {
                 if known[node as usize] {
                     continue;
                 }
                 known[node as usize] = true;
-                shapes.find(self.asset, triangle as u32, k);
+                shapes.find(asset, triangle as u32, k);
                 // A loop, not a map: its closure would not be compiled for the wider vectors.
-                for (sum, row) in self.sums[node as usize].iter_mut().zip(self.rows) {
+                for (sum, row) in sums[node as usize].iter_mut().zip(rows) {
                     *sum = dot(&shapes.lengths, row);
                 }
             }

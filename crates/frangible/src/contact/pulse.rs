@@ -9,7 +9,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::Load;
 use crate::asset::Asset;
-use crate::config::{CrackTiming, FractureConfig};
+use crate::config::FractureConfig;
 use crate::motion::Pulse;
 
 /// Least number of steps within a contact.
@@ -74,9 +74,9 @@ pub fn pulse(asset: &Asset, load: &Load, duration: f64, config: &FractureConfig)
     let low = (0..basis.followed())
         .find(|&i| amplitude(i) >= SIGNIFICANT * largest)
         .unwrap_or(0);
-    let end = match config.timing {
-        CrackTiming::Instant => duration,
-        CrackTiming::TimeResolved { .. } => duration.max(PERIODS * period_of(low)),
+    let end = match config.is_paper() {
+        true => duration,
+        false => duration.max(PERIODS * period_of(low)),
     };
     let contact_steps = contact_steps as usize;
     let total_steps = if end > duration {

@@ -19,7 +19,6 @@ use super::release::once;
 use super::single::{Crack, ElementCut, Front};
 use super::surface::CrackFrame;
 use super::system::{CrackSystem, UNCUT};
-use crate::config::{CrackPath, CrackTiming};
 use crate::material::Material;
 use crate::state::crossing_middle;
 use crate::stress::Symmetric3;
@@ -49,13 +48,7 @@ pub(super) fn forks(
     cut: &ElementCut,
     felt: &Felt,
 ) -> Option<Fork> {
-    let config = system.config;
-    let CrackTiming::TimeResolved { speed } = config.timing else {
-        return None;
-    };
-    if !config.branching || config.path == CrackPath::Planar {
-        return None;
-    }
+    let speed = system.config.crack_speed()?;
     let mesh = &system.asset.fracture;
     let n = cut.tet as usize;
     let crack = &system.cracks[front.crack as usize];
@@ -207,7 +200,7 @@ pub(super) fn start(
     cut: &ElementCut,
     fork: &Fork,
 ) -> bool {
-    let CrackTiming::TimeResolved { speed } = system.config.timing else {
+    let Some(speed) = system.config.crack_speed() else {
         return false;
     };
     let material = &system.asset.material;
@@ -229,11 +222,7 @@ pub(super) fn start(
     let felt = field.at(e as usize, crossing_middle(&x, &values));
     // It grows from the crack that it leaves, and is fed as that one is.
     let flaw = system.depth(&system.cracks[parent as usize], e, &felt);
-    let gain = if system.config.griffith_fronts {
-        flaw * felt.energy_across(fork.normal, material.contact_modulus())
-    } else {
-        material.energy_depth * f64::from(felt.state.energy_density)
-    };
+    let gain = flaw * felt.energy_across(fork.normal, material.contact_modulus());
     if area <= 0.0
         || gain <= system.resistance.toughness.of(e)
         || !system.ledger.has(system.cost(e, area))

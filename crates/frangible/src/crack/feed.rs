@@ -68,7 +68,7 @@ impl CrackSystem<'_> {
     /// Returns true if the stress still does not pay for a front that was refused, whichever way the crack turns: it need not be steered then.
     /// The area is that of the refusal.
     pub(super) fn stays_refused(&self, front: &Front, felt: &Felt, at: Vec3) -> bool {
-        if front.refused <= 0.0 || !self.config.griffith_fronts {
+        if front.refused <= 0.0 || self.config.is_paper() {
             return false;
         }
         let crack = &self.cracks[front.crack as usize];
@@ -93,7 +93,7 @@ impl CrackSystem<'_> {
         area: f32,
     ) -> f64 {
         let material = &self.asset.material;
-        if !self.config.griffith_fronts {
+        if self.config.is_paper() {
             let density = f64::from(felt.state.energy_density);
             return f64::from(area) * material.energy_depth * density;
         }

@@ -51,7 +51,7 @@ impl<'a> StressField<'a> {
             displacement,
             motion,
             moment: Moment::default(),
-            elasticity: Elasticity::new(&asset.material).with_green_lagrange(config.green_lagrange),
+            elasticity: Elasticity::new(&asset.material).with_green_lagrange(config.is_paper()),
             near: motion.complement.near(),
             centroids: &body.prepared.centroids,
             step: 0,

@@ -17,7 +17,6 @@ use super::surface::CrackFrame;
 use super::suspects::{Suspect, Suspects};
 use super::system::CrackSystem;
 use super::{advance, propagation::gradient, retry};
-use crate::config::{CrackPath, CrackTiming};
 use crate::rng::{Purpose, stream, uniform};
 use crate::stress::{Symmetric3, lane, largest_eigenvalue, perpendicular_axes, principal_axes};
 
@@ -64,7 +63,7 @@ pub(crate) fn crack(
     peak: Peak,
 ) -> Peak {
     retry(system, since);
-    let instant = system.config.timing == CrackTiming::Instant;
+    let instant = system.config.is_paper();
     if instant {
         advance(system, field, now);
     }
@@ -114,9 +113,8 @@ fn candidates<'a>(
         let strength = resistance.strength(e);
         // Neither a crack nor a new peak: most points at most times, and the bound needs no trigonometry.
         let felt = resistance.as_weakest(suspect.bounds[k], strength);
-        let may_start = suspect.bounds[k] > strength
-            && pays(system, suspect, k)
-            && !system.releases.holds(suspect.place, field.step);
+        let may_start =
+            suspect.bounds[k] > strength && !system.releases.holds(suspect.place, field.step);
         if !may_start && suspect.bounds[k] <= peak.tension && felt <= peak.as_weakest {
             continue;
         }
@@ -139,16 +137,6 @@ fn candidates<'a>(
         }
     }
     (candidates, peak)
-}
-
-/// Returns true if a crack's first tetrahedron pays for its own area: A γ η > A G_c.
-fn pays(system: &CrackSystem, suspect: &Suspect, k: usize) -> bool {
-    if system.config.griffith_fronts {
-        // By the tension across it, which is not known yet.
-        return true;
-    }
-    let gain = system.asset.material.energy_depth * f64::from(suspect.state.energy_density[k]);
-    !system.config.first_element_pays || gain > system.resistance.toughness.of(suspect.tet)
 }
 
 fn try_start(system: &mut CrackSystem, field: &mut StressField, suspect: &Suspect, now: f64) {
@@ -188,15 +176,12 @@ fn try_start(system: &mut CrackSystem, field: &mut StressField, suspect: &Suspec
     let at_surface = field.is_on_surface(e as usize);
     let in_wall = field.wall(e as usize).is_some();
     let flaw = system.flaw_feed(e, at_surface || in_wall);
-    let gain = if system.config.griffith_fronts {
-        flaw * 0.5 * tension * tension / material.contact_modulus()
-    } else {
-        material.energy_depth * f64::from(suspect.state.energy_density[k])
+    let planar = system.config.is_paper();
+    let gain = match planar {
+        true => material.energy_depth * f64::from(suspect.state.energy_density[k]),
+        false => flaw * 0.5 * tension * tension / material.contact_modulus(),
     };
-    if system.config.griffith_fronts
-        && system.config.first_element_pays
-        && gain <= system.resistance.toughness.of(e)
-    {
+    if !planar && gain <= system.resistance.toughness.of(e) {
         return;
     }
     let id = system.cracks.len() as u32;
@@ -205,9 +190,9 @@ fn try_start(system: &mut CrackSystem, field: &mut StressField, suspect: &Suspec
         system.cracks[id as usize].flaw,
         system.cracks[id as usize].at_surface,
     ) = (flaw, at_surface);
-    let direction = match system.config.path {
-        CrackPath::Planar => gradient(&x, &values).unwrap_or(normal),
-        CrackPath::Steered { .. } => normal,
+    let direction = match planar {
+        true => gradient(&x, &values).unwrap_or(normal),
+        false => normal,
     };
     system.fracture(
         id,
@@ -225,7 +210,7 @@ fn try_start(system: &mut CrackSystem, field: &mut StressField, suspect: &Suspec
         area,
         f64::from(area) * gain,
     );
-    if system.config.timing == CrackTiming::Instant {
+    if planar {
         advance(system, field, f64::INFINITY);
         // An instant crack that ran out of energy is over.
         system.stalled.clear();

@@ -22,7 +22,6 @@
 
 mod arrival;
 mod branching;
-mod calm;
 mod cuts;
 mod extents;
 mod feed;

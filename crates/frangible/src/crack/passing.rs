@@ -23,7 +23,7 @@ pub(super) fn passes(
     front: &Front,
     from: &ElementCut,
 ) -> Option<Fork> {
-    if !system.config.branching || from.opens == Vec3::ZERO {
+    if system.config.is_paper() || from.opens == Vec3::ZERO {
         return None;
     }
     let place = system.centroids[front.tet as usize];

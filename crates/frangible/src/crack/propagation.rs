@@ -25,7 +25,6 @@ use super::field::StressField;
 use super::passing::passes;
 use super::single::{ElementCut, Front};
 use super::system::{CrackSystem, UNCUT};
-use crate::config::{CrackPath, CrackTiming};
 use crate::fields::Tip;
 use crate::state::crossing_middle;
 use crate::stress::{Symmetric3, largest_eigenvalue};
@@ -109,9 +108,9 @@ fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
         values: crossing.values,
         direction,
         opens,
-        time: match system.config.timing {
-            CrackTiming::TimeResolved { .. } => front.arrival,
-            CrackTiming::Instant => crossing.from.time,
+        time: match system.config.is_paper() {
+            false => front.arrival,
+            true => crossing.from.time,
         },
     };
     let area = system.area(&crossing.x, &cut.values, cut.direction);
@@ -162,7 +161,7 @@ impl Crossing {
             }
         }
         let x = mesh.corners(front.tet as usize);
-        if system.config.path == CrackPath::Planar {
+        if system.config.is_paper() {
             values[fourth] = crack.frame.planar(x[fourth]);
         }
         Self {
@@ -197,7 +196,7 @@ fn steers(
     crossing: &mut Crossing,
 ) -> Option<(Vec3, Vec3)> {
     let crack = &system.cracks[front.crack as usize];
-    let CrackPath::Steered { turning_length } = system.config.path else {
+    let Some(turning_length) = system.config.turning_length() else {
         return Some((crack.frame.normal, Vec3::ZERO));
     };
     let Crossing {
@@ -307,7 +306,7 @@ fn straight_on(system: &CrackSystem, front: &Front, crossing: &Crossing) -> (f32
         fourth,
     } = crossing;
     let mut values = *values;
-    if system.config.path == CrackPath::Planar {
+    if system.config.is_paper() {
         // The paper looks at the stress of the tetrahedron [G12 §5.2.3].
         let centroid = system.centroids[front.tet as usize];
         return (system.area(x, &values, from.direction), centroid);

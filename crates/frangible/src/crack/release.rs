@@ -24,7 +24,6 @@ use super::extents::Ring;
 use super::field::StressField;
 use super::suspects::Suspect;
 use super::system::CrackSystem;
-use crate::config::CrackTiming;
 use crate::stress::{
     BATCH, MARGIN, Released, STRETCHED, STRIDE, Steps, StressLanes, Symmetric3, bent, lane,
     largest_eigenvalue,
@@ -163,12 +162,7 @@ impl Releases {
         suspect: &Suspect,
         enough: Option<(f32, Steps)>,
     ) -> StressLanes {
-        crate::vectors::widest(Left {
-            releases: self,
-            field,
-            suspect,
-            enough,
-        })
+        left(self, field, suspect, enough)
     }
 
     /// A suspect's point as the cracks of a ring about it leave it by `now`, s, if any crack has released it.
@@ -180,7 +174,7 @@ impl Releases {
         ring: Ring,
         now: f64,
     ) -> Option<&mut Point> {
-        if system.config.timing == CrackTiming::Instant || system.cracks.is_empty() {
+        if system.config.is_paper() || system.cracks.is_empty() {
             return None;
         }
         let place = suspect.place as usize;
@@ -235,30 +229,24 @@ pub(super) fn once(
     Some(left)
 }
 
-/// Computation of the remaining stress of a suspect, with the widest vectors that this processor has; the same operations in the same
-/// order, so the same bits.
-struct Left<'a, 'f> {
-    releases: &'a mut Releases,
-    field: &'a mut StressField<'f>,
-    suspect: &'a Suspect,
-    enough: Option<(f32, Steps)>,
-}
-
-impl pulp::NullaryFnOnce for Left<'_, '_> {
-    type Output = StressLanes;
-
-    #[inline(always)]
-    fn call(self) -> StressLanes {
+widest! {
+    /// Computes the remaining stress of a suspect.
+    fn left(
+        releases: &mut Releases,
+        field: &mut StressField<'_>,
+        suspect: &Suspect,
+        enough: Option<(f32, Steps)>,
+    ) -> StressLanes {
         let Releases {
             points,
             opposites,
             batch,
-        } = self.releases;
-        let mut rest = Released::of_batch(&self.suspect.state, None);
-        let Some(point) = &mut points[self.suspect.place as usize] else {
+        } = releases;
+        let mut rest = Released::of_batch(&suspect.state, None);
+        let Some(point) = &mut points[suspect.place as usize] else {
             return rest.left_of_batch();
         };
-        let present = self.field.step / STRIDE;
+        let present = field.step / STRIDE;
         if *batch != present {
             *batch = present;
             opposites.clear();
@@ -266,22 +254,21 @@ impl pulp::NullaryFnOnce for Left<'_, '_> {
         // Only in a wall the two shares differ.
         if point.memory.beta != STRETCHED
             && point.opposite.is_none_or(|(of, _)| of != present)
-            && let Some(opposite) = self
-                .field
-                .opposite_weak_point(self.suspect.place as usize, self.suspect.tet as usize)
+            && let Some(opposite) =
+                field.opposite_weak_point(suspect.place as usize, suspect.tet as usize)
         {
             point.opposite = Some((present, opposites.len()));
             opposites.push(opposite);
         }
         let opposite = point.opposite.filter(|&(of, _)| of == present);
         let opposite = opposite.and_then(|(_, i)| opposites.get(i));
-        rest = Released::of_batch(&self.suspect.state, opposite);
+        rest = Released::of_batch(&suspect.state, opposite);
         for (k, shadow) in point.memory.shadows().enumerate() {
             rest.release(shadow);
             // What is below stays below.
             if k % BETWEEN_LOOKS == BETWEEN_LOOKS - 1
-                && let Some((limit, needed)) = self.enough
-                && holding(&rest.left_of_batch(), self.suspect, limit) & needed == needed
+                && let Some((limit, needed)) = enough
+                && holding(&rest.left_of_batch(), suspect, limit) & needed == needed
             {
                 break;
             }

@@ -8,7 +8,6 @@ use super::field::StressField;
 use super::section::{ALONG, Column, Plane, Section};
 use super::single::Front;
 use super::system::{CrackSystem, ELSEWHERE, UNCUT};
-use crate::config::CrackTiming;
 use crate::mesh::{FACES, NO_NEIGHBOUR};
 use crate::state::{crossing_area, crossing_middle};
 use crate::tips::LARGE;
@@ -34,7 +33,7 @@ impl CrackSystem<'_> {
 
     /// Finds the section of a crack that has grown, and the energy release rates there at the present step.
     pub(super) fn keep_section(&mut self, crack: u32, field: &mut StressField) {
-        if !self.config.griffith_fronts {
+        if self.config.is_paper() {
             return;
         }
         let id = crack as usize;
@@ -365,10 +364,6 @@ impl CrackSystem<'_> {
 
     /// Speed of the cracks, m/s.
     fn crack_speed(&self) -> f64 {
-        let share = match self.config.timing {
-            CrackTiming::TimeResolved { speed } => speed,
-            CrackTiming::Instant => 1.0,
-        };
-        share * self.asset.material.rayleigh_speed()
+        self.config.crack_speed().unwrap_or(1.0) * self.asset.material.rayleigh_speed()
     }
 }

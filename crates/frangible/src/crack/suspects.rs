@@ -2,7 +2,6 @@
 //! arithmetic runs over the steps side by side. What cracks do in the meantime only takes suspects away: release
 //! waves never raise the largest tension (λ_max(Q σ Q) ≤ max(λ_max(σ), 0), `stress/shadow.rs`).
 
-use super::calm::Calm;
 use super::field::StressField;
 use super::initiation::Peak;
 use super::system::CrackSystem;
@@ -28,7 +27,6 @@ pub(crate) struct Suspects {
     points: Vec<Suspect>,
     of_step: [Vec<u32>; BATCH],
     stress: WeakStress,
-    calm: Option<Box<Calm>>,
     /// Largest bound of the points that were passed over, Pa, and as the weakest point would feel it.
     pub(crate) passed_over: [f32; 2],
 }
@@ -47,7 +45,7 @@ impl Suspects {
     ) {
         self.points.clear();
         self.of_step.iter_mut().for_each(Vec::clear);
-        crate::vectors::widest(Look {
+        look(Look {
             suspects: self,
             body,
             field,
@@ -87,11 +85,6 @@ impl Suspects {
         }
     }
 
-    /// Forgets what is known of one motion: another begins.
-    pub(crate) fn forget_motion(&mut self) {
-        self.calm = None;
-    }
-
     /// Suspects at step `k` of the batch.
     pub(crate) fn at(&self, k: usize) -> impl Iterator<Item = &Suspect> {
         self.of_step[k].iter().map(|&i| &self.points[i as usize])
@@ -118,19 +111,23 @@ struct Look<'a, 'f, 's, I> {
     peak: Peak,
 }
 
-impl<I: Iterator<Item = (u32, Steps)>> pulp::NullaryFnOnce for Look<'_, '_, '_, I> {
-    type Output = ();
+widest! {
+    fn look[I: Iterator<Item = (u32, Steps)>](look: Look<'_, '_, '_, I>) {
+        look.run();
+    }
 
+    /// The stress at a weak point, by gradients.
+    fn at_weak_point(field: &mut StressField<'_>, tet: u32) -> StressLanes {
+        field.at_weak_point(tet as usize)
+    }
+}
+
+impl<I: Iterator<Item = (u32, Steps)>> Look<'_, '_, '_, I> {
     #[inline(always)]
-    fn call(mut self) {
+    fn run(mut self) {
         let (body, config) = (self.body, self.field.config);
         let modes = self.field.displacement.amplitudes().len();
         let laws = body.rows.of(body, config, modes);
-        let mut calm = self.suspects.calm.take();
-        if laws.is_none() && Calm::serves(self.field) {
-            let calm = calm.get_or_insert_with(|| Box::new(Calm::of(body, self.field)));
-            calm.seek(self.field);
-        }
         if laws.is_some() {
             self.suspects.stress.begin(self.field);
         }
@@ -140,37 +137,17 @@ impl<I: Iterator<Item = (u32, Steps)>> pulp::NullaryFnOnce for Look<'_, '_, '_, 
             if tets.all(|&tet| self.is_over(tet)) {
                 continue;
             }
-            match (laws, &mut calm) {
-                (Some(laws), _) => {
-                    self.by_rows(cluster, laws.cluster(body, config, cluster), steps);
-                }
-                (None, Some(calm)) => self.by_knots(calm, cluster, steps),
-                (None, None) => {
-                    let tets = body.clusters.tets(cluster);
-                    for (place, &tet) in body.clusters.places(cluster).zip(tets) {
-                        if !self.is_over(tet) {
-                            self.by_displacement(place, tet, steps);
-                        }
-                    }
+            if let Some(laws) = laws {
+                self.by_rows(cluster, laws.cluster(body, config, cluster), steps);
+                continue;
+            }
+            let tets = body.clusters.tets(cluster);
+            for (place, &tet) in body.clusters.places(cluster).zip(tets) {
+                if !self.is_over(tet) {
+                    self.by_displacement(place, tet, steps);
                 }
             }
         }
-        self.suspects.calm = calm;
-    }
-}
-
-/// The stress at one point, by gradients.
-struct AtWeakPoint<'a, 'f> {
-    field: &'a mut StressField<'f>,
-    tet: u32,
-}
-
-impl pulp::NullaryFnOnce for AtWeakPoint<'_, '_> {
-    type Output = StressLanes;
-
-    #[inline(always)]
-    fn call(self) -> StressLanes {
-        self.field.at_weak_point(self.tet as usize)
     }
 }
 
@@ -282,28 +259,11 @@ impl<I> Look<'_, '_, '_, I> {
         *passed_over = [passed_over[0].max(most), passed_over[1].max(felt)];
     }
 
-    /// Looks only at points that may crack between a few of the steps.
-    #[inline(always)]
-    fn by_knots(&mut self, calm: &mut Calm, cluster: usize, steps: Steps) {
-        let body = self.body;
-        calm.look(body, self.field, cluster);
-        for (place, &tet) in (body.clusters.places(cluster)).zip(body.clusters.tets(cluster)) {
-            if self.is_over(tet) {
-                continue;
-            }
-            self.pass_over(tet, calm.most(place));
-            if calm.is_restless(place) {
-                self.by_displacement(place, tet, steps);
-            }
-        }
-    }
-
     /// Looks at a point by displacement gradients, where rows do not hold. A function of its own: inlined at each of its calls it took a third of
     /// the time in which the crate compiles.
     #[inline(never)]
     fn by_displacement(&mut self, place: usize, tet: u32, steps: Steps) {
-        let field = &mut *self.field;
-        let state = crate::vectors::widest(AtWeakPoint { field, tet });
+        let state = at_weak_point(self.field, tet);
         let bounds = state.tension_bounds();
         let passing = Suspects::passing(self.body, tet, &bounds, steps, self.peak);
         if passing != 0 {

@@ -16,7 +16,7 @@ use super::sites::Site;
 use super::surface::CrackFrame;
 use crate::asset::Asset;
 use crate::body::Body;
-use crate::config::{CrackPath, CrackTiming, FractureConfig};
+use crate::config::FractureConfig;
 use crate::fields::Resistance;
 use crate::state::{OldCrack, crossing_area, crossing_middle, nominal_area};
 use crate::tips::{Tip, front_limit, is_inside};
@@ -96,7 +96,7 @@ impl<'a> CrackSystem<'a> {
             config,
             resistance: &body.resistance,
             seed: body.seed(),
-            ledger: Ledger::new(config.energy_ledger, budget),
+            ledger: Ledger::new(!config.is_paper(), budget),
             cracks: Vec::new(),
             sections: Vec::new(),
             values: NodeValues::new(asset.fracture.positions.len()),
@@ -121,7 +121,7 @@ impl<'a> CrackSystem<'a> {
             edge: body.prepared.edge,
         };
         for (old, &tip) in body.state().cracks.iter().zip(&body.tips) {
-            system.restore(old, config.griffith_fronts.then_some(tip));
+            system.restore(old, (!config.is_paper()).then_some(tip));
         }
         system
     }
@@ -195,7 +195,7 @@ impl<'a> CrackSystem<'a> {
             for k in (0..4).filter(|&k| k != face) {
                 sides[usize::from(cut.values[k] < 0.0)] = true;
             }
-            if self.config.path == CrackPath::Planar && sides != [true; 2] {
+            if self.config.is_paper() && sides != [true; 2] {
                 let nodes_beyond = mesh.tets[neighbour as usize].iter();
                 for &node in nodes_beyond.filter(|node| !nodes.contains(node)) {
                     let s = frame.planar(mesh.positions[node as usize]);
@@ -270,9 +270,9 @@ impl<'a> CrackSystem<'a> {
     /// Area of a crack in a tetrahedron, m²: that of its smooth surface, for which toughness is measured. A planar crack counts its roughness
     /// `[G12 Eq. 11]`.
     pub(super) fn area(&self, x: &[Vec3; 4], values: &[f32; 4], direction: Vec3) -> f32 {
-        match self.config.path {
-            CrackPath::Planar => crossing_area(x, values),
-            CrackPath::Steered { .. } => nominal_area(x, values, direction),
+        match self.config.is_paper() {
+            true => crossing_area(x, values),
+            false => nominal_area(x, values, direction),
         }
     }
 
@@ -321,13 +321,13 @@ impl<'a> CrackSystem<'a> {
         self.join(crack, cut, area);
         let from = self.cracks[crack as usize].elements.len() as u32 - 1;
         for (face, neighbour) in self.ahead(crack, &cut) {
-            let (arrival, source) = match self.config.timing {
-                CrackTiming::TimeResolved { speed, .. } => {
+            let (arrival, source) = match self.config.crack_speed() {
+                Some(speed) => {
                     let speed = speed * material.rayleigh_speed();
                     self.leaves(crack, &cut, entered, face, speed)
                 }
                 // Breadth-first: neighbours of the earlier tetrahedron first [G12 §5.2.2].
-                CrackTiming::Instant => (f64::from(from), Source::WAITED),
+                None => (f64::from(from), Source::WAITED),
             };
             self.fronts.push(Front {
                 arrival,
@@ -362,7 +362,7 @@ impl<'a> CrackSystem<'a> {
         }
         self.extents.grow(crack as usize, centre, cut.time);
         // The surface of a planar crack is the same everywhere.
-        if self.config.path != CrackPath::Planar {
+        if !self.config.is_paper() {
             for (&node, &s) in self.asset.fracture.tets[tet].iter().zip(&cut.values) {
                 self.values.keep(crack, node, s);
             }

@@ -65,12 +65,10 @@ impl WeakRows {
         modes: usize,
     ) -> Option<&'a LawRows> {
         let followed = body.asset.modes.followed();
-        if config.green_lagrange || modes > followed {
+        if config.is_paper() || modes > followed {
             return None;
         }
-        let laws = usize::from(config.surface_flaws)
-            + 2 * usize::from(config.plane_stress_walls)
-            + 4 * usize::from(config.sized_flaws);
+        let laws = usize::from(config.sized_flaws);
         let make = || {
             let clusters = body.clusters.clusters.len();
             is_less_work(body, config, followed).then(|| LawRows {

@@ -34,7 +34,7 @@ pub(crate) fn label(
         None => Cuts::settled(system, index),
     };
     cuts.follow(system, index, &mut known);
-    if system.config.ends_inside {
+    if !system.config.is_paper() {
         end_cracks(system, index, &mut cuts, &mut known);
     }
     let portion = system.asset.portion.as_deref();

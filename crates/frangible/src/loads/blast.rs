@@ -6,12 +6,12 @@ use crate::asset::{Asset, each_row};
 use crate::body::Body;
 use crate::config::FractureConfig;
 use crate::contact::{self, Load};
-use crate::cracking::Cracking;
+use crate::cracking::{Cracking, Moves};
 use crate::error::{InputError, finite, positive};
-use crate::impact::{pieces, report_on};
+use crate::impact::pieces;
 use crate::mesh::SurfacePoint;
 use crate::motion::{self, Residual};
-use crate::outcome::{LookedAt, Outcome};
+use crate::outcome::{ImpactReport, LookedAt, Outcome};
 
 /// A pressure pulse that spreads from a point.
 ///
@@ -64,7 +64,7 @@ pub fn blast(body: &Body, blast: &Blast, config: &FractureConfig) -> Result<Outc
         });
         motion.complement.residuals.extend(residual);
     }
-    let mut report = report_on(body);
+    let mut report = ImpactReport::of(body);
     report.looked_at = LookedAt::Amplitudes;
     report.contact_duration = pulse.duration;
     report.unadjusted_duration = pulse.duration;
@@ -74,11 +74,10 @@ pub fn blast(body: &Body, blast: &Blast, config: &FractureConfig) -> Result<Outc
         body,
         config,
         budget: motion.peak_strain_energy,
-        motion,
+        moves: Moves::Given(motion),
         // A blast presses everywhere, far below any strength.
         pressed: Vec::new(),
         time_step: pulse.time_step,
-        blow: None,
     }
     .run(0, report, &mut None);
     Ok(pieces(body, cracked))

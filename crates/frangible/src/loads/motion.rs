@@ -2,11 +2,11 @@
 
 use crate::body::Body;
 use crate::config::FractureConfig;
-use crate::cracking::Cracking;
+use crate::cracking::{Cracking, Moves};
 use crate::error::{InputError, positive};
-use crate::impact::{pieces, report_on};
+use crate::impact::pieces;
 use crate::motion::Motion;
-use crate::outcome::{LookedAt, Outcome};
+use crate::outcome::{ImpactReport, LookedAt, Outcome};
 use crate::trace::CrackTrace;
 
 /// Grows cracks under a prescribed motion of a body's modes, with the steps of [`impact()`](crate::impact()) after the stress wave
@@ -71,18 +71,17 @@ fn run(
             "its strain energy must be a finite number, zero or above",
         ));
     }
-    let mut report = report_on(body);
+    let mut report = ImpactReport::of(body);
     report.time_step = time_step;
     report.time_steps = motion.steps();
     report.looked_at = LookedAt::Amplitudes;
     let cracked = Cracking {
         body,
         config,
-        motion: motion.clone(),
+        moves: Moves::Given(motion.clone()),
         pressed: pressed.to_vec(),
         time_step,
         budget: energy,
-        blow: None,
     }
     .run(0, report, trace);
     Ok(pieces(body, cracked))

@@ -9,13 +9,13 @@ use glam::Vec3;
 use crate::asset::each_row;
 use crate::blow::SteadyNear;
 use crate::body::Body;
-use crate::config::{CrackTiming, FractureConfig};
-use crate::cracking::{Cracked, Cracking};
+use crate::config::FractureConfig;
+use crate::cracking::{Cracked, Cracking, Moves};
 use crate::error::{InputError, finite};
-use crate::impact::{pieces, report_on};
+use crate::impact::pieces;
 use crate::mesh::SurfacePoint;
 use crate::motion::Motion;
-use crate::outcome::{LookedAt, Outcome};
+use crate::outcome::{ImpactReport, LookedAt, Outcome};
 use crate::refuse::{Pushes, harmless};
 
 /// A force on the surface, body frame.
@@ -55,10 +55,10 @@ pub fn rest(
     let weight = |mode: usize| prepared.weight.get(mode).map_or(0.0, |w| w.dot(gravity));
     let compliance = |mode: usize| prepared.periods[mode] * prepared.periods[mode];
     let near_at = |(at, force): &(SurfacePoint, Vec3)| {
-        let theory = config.near_field.filter(|_| !config.green_lagrange)?;
+        let theory = config.near_field.filter(|_| !config.is_paper())?;
         SteadyNear::of(body, at, *force, theory)
     };
-    let mut report = report_on(body);
+    let mut report = ImpactReport::of(body);
     let left = body
         .resistance
         .left_after(config.load_duration, report.strength);
@@ -122,11 +122,10 @@ pub fn rest(
         Cracking {
             body,
             config,
-            motion,
+            moves: Moves::Given(motion),
             pressed: pressed.clone(),
             time_step,
             budget: f64::INFINITY,
-            blow: None,
         }
         .run(0, report, &mut None)
     };
@@ -142,7 +141,7 @@ pub fn rest(
 
 /// Time step, s, and number of steps in which a crack can cross the body: one mean edge per step.
 fn steps(body: &Body, config: &FractureConfig) -> (f64, usize) {
-    let CrackTiming::TimeResolved { speed, .. } = config.timing else {
+    let Some(speed) = config.crack_speed() else {
         return (1.0, 1);
     };
     let positions = body.asset.surface_positions();

@@ -92,7 +92,7 @@ impl DisplacementBatch {
     /// Computes the batch at every node in advance.
     pub fn fill(&mut self, asset: &Asset) {
         // With the widest vectors that this processor has, as where they are asked for.
-        crate::vectors::widest(Fill { batch: self, asset });
+        fill(self, asset);
     }
 
     /// u = Φ q at a node, at all steps of the batch.
@@ -175,19 +175,11 @@ impl DisplacementBatch {
     }
 }
 
-/// The displacements of all nodes.
-struct Fill<'a> {
-    batch: &'a mut DisplacementBatch,
-    asset: &'a Asset,
-}
-
-impl pulp::NullaryFnOnce for Fill<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        for node in 0..self.batch.displacements.len() {
-            self.batch.at_node(self.asset, node);
+widest! {
+    /// The displacements of all nodes.
+    fn fill(batch: &mut DisplacementBatch, asset: &Asset) {
+        for node in 0..batch.displacements.len() {
+            batch.at_node(asset, node);
         }
     }
 }

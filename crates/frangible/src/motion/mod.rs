@@ -2,14 +2,12 @@
 
 mod complement;
 mod displacement;
-mod knots;
 mod moment;
 mod pulse;
 mod response;
 
 pub(crate) use complement::{Complement, Residual};
 pub use displacement::DisplacementBatch;
-pub(crate) use knots::Knots;
 pub(crate) use moment::Moment;
 pub use pulse::Pulse;
 pub use response::respond;

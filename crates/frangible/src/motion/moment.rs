@@ -26,13 +26,7 @@ impl Moment {
         let element = point.element as usize;
         let gradients = point.shape_gradients(&asset.analysis.barycentric_gradients[element]);
         let nodes = &asset.analysis.elements[element];
-        crate::vectors::widest(Compute {
-            moment: self,
-            asset,
-            motion,
-            nodes,
-            step,
-        });
+        compute(self, asset, motion, nodes, step);
         // The gradients of the shape functions add up to nothing: what all nodes share only costs digits.
         let shared = self.nodes[nodes[0] as usize].0;
         let mut sum = Mat3::ZERO;
@@ -84,22 +78,11 @@ impl Moment {
     }
 }
 
-/// Displacements of an element's nodes.
-struct Compute<'a> {
-    moment: &'a mut Moment,
-    asset: &'a Asset,
-    motion: &'a Motion,
-    nodes: &'a [u32; 10],
-    step: usize,
-}
-
-impl pulp::NullaryFnOnce for Compute<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        for &node in self.nodes {
-            (self.moment).compute(self.asset, self.motion, node as usize, self.step);
+widest! {
+    /// Displacements of an element's nodes.
+    fn compute(moment: &mut Moment, asset: &Asset, motion: &Motion, nodes: &[u32; 10], step: usize) {
+        for &node in nodes {
+            moment.compute(asset, motion, node as usize, step);
         }
     }
 }

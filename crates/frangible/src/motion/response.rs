@@ -21,7 +21,7 @@ pub fn respond(basis: &ModalBasis, material: &Material, load: &[f64], pulse: &Pu
                 (mode, load[i] * pulse.amplitude)
             })
             .collect();
-        crate::vectors::widest(Respond {
+        run(Respond {
             some: &some,
             first,
             modes,
@@ -84,11 +84,15 @@ impl Respond<'_> {
     }
 }
 
-impl pulp::NullaryFnOnce for Respond<'_> {
-    type Output = ();
+widest! {
+    fn run(respond: Respond<'_>) {
+        respond.run();
+    }
+}
 
+impl Respond<'_> {
     #[inline(always)]
-    fn call(self) {
+    fn run(self) {
         let blocks = [
             [
                 self.block(|m| m.forced.own),

@@ -74,13 +74,13 @@ impl NearField {
         let still = bands.following_stress(wall, &radii);
         let swinging = bands.swinging_stress(wall, &radii);
         let mut table = [0, 1].map(|_| vec![0.0_f32; radii.len() * steps]);
-        crate::vectors::widest(Fill {
-            table: &mut table,
-            still: &still,
-            swinging: &swinging,
-            swing: &by_oscillator(swing, steps),
+        fill(
+            &mut table,
+            &still,
+            &swinging,
+            &by_oscillator(swing, steps),
             force,
-        });
+        );
         let last = (radii.len() - 1) * steps;
         table.iter_mut().for_each(|t| t[last..].fill(0.0));
         let end = radii.last().map_or(0.0, |&r| r as f32);
@@ -298,32 +298,27 @@ fn by_oscillator(swing: &[f32], steps: usize) -> Vec<f32> {
     sorted
 }
 
-/// The sums over all oscillators at every distance and time step.
-struct Fill<'a> {
-    table: &'a mut [Vec<f32>; 2],
-    still: &'a [[f64; 2]],
-    swinging: &'a [Vec<[f64; 2]>],
-    swing: &'a [f32],
-    force: &'a [f32],
-}
-
-impl pulp::NullaryFnOnce for Fill<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        let steps = self.force.len();
+widest! {
+    /// The sums over all oscillators at every distance and time step.
+    fn fill(
+        table: &mut [Vec<f32>; 2],
+        still: &[[f64; 2]],
+        swinging: &[Vec<[f64; 2]>],
+        swing: &[f32],
+        force: &[f32],
+    ) {
+        let steps = force.len();
         if steps == 0 {
             return;
         }
         for part in 0..2 {
-            let rows = self.table[part].chunks_exact_mut(steps);
-            for ((row, still), swinging) in rows.zip(self.still).zip(self.swinging) {
+            let rows = table[part].chunks_exact_mut(steps);
+            for ((row, still), swinging) in rows.zip(still).zip(swinging) {
                 let share = still[part] as f32;
-                for (sum, &force) in row.iter_mut().zip(self.force) {
+                for (sum, &force) in row.iter_mut().zip(force) {
                     *sum = share * force;
                 }
-                for (shares, swing) in swinging.iter().zip(self.swing.chunks_exact(steps)) {
+                for (shares, swing) in swinging.iter().zip(swing.chunks_exact(steps)) {
                     let share = shares[part] as f32;
                     for (sum, &q) in row.iter_mut().zip(swing) {
                         *sum += share * q;

@@ -63,20 +63,11 @@ impl<'a> ClusterBounds<'a> {
     }
 }
 
-/// The bounds of all parts, with the widest vectors that this processor has.
-struct AllParts<'p, 'a> {
-    parts: &'p ClusterBounds<'a>,
-    amplitudes: &'p [f32],
-    bounds: &'p mut [f32],
-}
-
-impl pulp::NullaryFnOnce for AllParts<'_, '_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        for (part, bound) in self.bounds.iter_mut().enumerate() {
-            *bound = self.parts.bound(part, self.amplitudes);
+widest! {
+    /// The bounds of all parts.
+    fn all_bounds(parts: &ClusterBounds<'_>, amplitudes: &[f32], bounds: &mut [f32]) {
+        for (part, bound) in bounds.iter_mut().enumerate() {
+            *bound = parts.bound(part, amplitudes);
         }
     }
 }
@@ -94,11 +85,7 @@ pub(crate) fn refused_by_clusters(
         as_weakest: 0.0,
     };
     let mut bounds = vec![0.0; parts.count()];
-    crate::vectors::widest(AllParts {
-        parts: &parts,
-        amplitudes,
-        bounds: &mut bounds,
-    });
+    all_bounds(&parts, amplitudes, &mut bounds);
     for (part, bound) in bounds.into_iter().enumerate() {
         let harmless = bound <= parts.limit(part);
         if !harmless {

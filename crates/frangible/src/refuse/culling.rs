@@ -116,11 +116,8 @@ impl<'a> Culling<'a> {
         self.survivors.fill(if self.on { 0 } else { asked });
         if self.on && asked != 0 {
             self.asked_clusters = true;
-            crate::vectors::widest(AskClusters {
-                culling: self,
-                motion,
-                steps: steps.filter(|&step| asked >> lane(step) & 1 == 1),
-            });
+            let steps = steps.filter(|&step| asked >> lane(step) & 1 == 1);
+            ask_clusters(self, motion, steps);
         }
         roots
     }
@@ -156,23 +153,13 @@ impl<'a> Culling<'a> {
     }
 }
 
-/// Search for the clusters that may crack at some time steps of a batch.
-struct AskClusters<'c, 'a, 'm, S> {
-    culling: &'c mut Culling<'a>,
-    motion: &'m Motion,
-    steps: S,
-}
-
-impl<S: Iterator<Item = usize> + Clone> pulp::NullaryFnOnce for AskClusters<'_, '_, '_, S> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        let Self {
-            culling,
-            motion,
-            steps,
-        } = self;
+widest! {
+    /// Finds the clusters that may crack at some time steps of a batch.
+    fn ask_clusters[S: Iterator<Item = usize> + Clone](
+        culling: &mut Culling<'_>,
+        motion: &Motion,
+        steps: S,
+    ) {
         let parts = ClusterBounds::new(culling.body, culling.quadratic_modulus);
         let mut sizes = std::mem::take(&mut culling.sizes);
         sizes.fill([0.0; BATCH]);

@@ -65,12 +65,7 @@ pub(crate) fn refused(
         let given = given_duration(body, || hit().zip(pushes.places()), config);
         for (limit, contact) in limits.iter_mut().zip(hit()) {
             let impulse = f64::from(contact.impulse);
-            // Beside modes that answer statically a script is given its own time, else all contacts have one.
-            let duration = match contact.is_script() && config.has_complement() {
-                true => f64::from(contact.duration),
-                false => given?,
-            };
-            let force = std::f64::consts::FRAC_PI_2 * impulse / duration;
+            let force = std::f64::consts::FRAC_PI_2 * impulse / given;
             *limit = Limits { impulse, force };
         }
     }
@@ -127,12 +122,9 @@ pub(crate) fn refused(
     refused_by_clusters(body, &amplitudes, quadratic_modulus)
 }
 
-/// Duration of the contacts whose impulses are given, s: the shortest of all that touch. None where it takes the modes to say.
-fn given_duration<'a, Hits>(
-    body: &Body,
-    hits: impl Fn() -> Hits,
-    config: &FractureConfig,
-) -> Option<f64>
+/// Duration of the contacts whose impulses are given, s: the shortest of all that touch. Infinite where it takes the modes to say: with no modes
+/// that follow the force the bounds ask for no duration.
+fn given_duration<'a, Hits>(body: &Body, hits: impl Fn() -> Hits, config: &FractureConfig) -> f64
 where
     Hits: Iterator<Item = (&'a Contact, &'a (SurfacePoint, Vec3))>,
 {
@@ -147,10 +139,8 @@ where
                 let give = give(asset, at, contact.normal.normalize());
                 hertz_at(asset, contact, radius, give)
             });
-            Some(durations.fold(f64::INFINITY, f64::min))
+            durations.fold(f64::INFINITY, f64::min)
         }
-        // With no modes that follow the force the bounds ask for no duration.
-        _ if !config.residual || asset.modes.residual_modes == 0 => Some(f64::INFINITY),
-        _ => None,
+        _ => f64::INFINITY,
     }
 }

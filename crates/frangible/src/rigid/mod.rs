@@ -18,7 +18,6 @@ mod blow;
 mod held;
 mod meet;
 mod passage;
-mod principal;
 
 use glam::{DMat3, DVec3};
 
@@ -28,7 +27,6 @@ pub use blow::{
 };
 pub use held::take_held;
 pub use passage::{APART, Ball, fly_through, pass};
-pub use principal::principal_axes;
 
 /// A rigid body, world axes.
 #[derive(Clone, Copy, Debug)]

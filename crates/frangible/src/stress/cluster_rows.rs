@@ -4,9 +4,9 @@ use std::sync::OnceLock;
 
 use super::{Coarse, Frame, RowPoint, Rows, Sizes};
 
-/// Rows by how the points' laws are chosen, by the body's surface and walls or not, and whether flaws have a size.
+/// Rows of points, and of flaws with a size.
 #[derive(Debug, Default)]
-pub(crate) struct WeakRows(pub(crate) [OnceLock<Option<LawRows>>; 8]);
+pub(crate) struct WeakRows(pub(crate) [OnceLock<Option<LawRows>>; 2]);
 
 /// Rows of the clusters.
 #[derive(Debug)]

@@ -35,11 +35,7 @@ impl Coarse {
     /// The shapes of the rows of a cluster's points; `periods`: amplitude of each mode under an impulse, in any unit. None where few shapes are not
     /// enough.
     pub(crate) fn new(frames: &[Frame], rows: &Rows, periods: &[f32]) -> Option<Self> {
-        crate::vectors::widest(Find {
-            frames,
-            rows,
-            periods,
-        })
+        find(frames, rows, periods)
     }
 
     #[inline(always)]
@@ -102,19 +98,10 @@ impl Coarse {
     }
 }
 
-/// Looks for shapes.
-struct Find<'a> {
-    frames: &'a [Frame],
-    rows: &'a Rows,
-    periods: &'a [f32],
-}
-
-impl pulp::NullaryFnOnce for Find<'_> {
-    type Output = Option<Coarse>;
-
-    #[inline(always)]
-    fn call(self) -> Option<Coarse> {
-        Coarse::found(self.frames, self.rows, self.periods)
+widest! {
+    /// Looks for shapes.
+    fn find(frames: &[Frame], rows: &Rows, periods: &[f32]) -> Option<Coarse> {
+        Coarse::found(frames, rows, periods)
     }
 }
 

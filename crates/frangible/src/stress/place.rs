@@ -51,10 +51,9 @@ pub(crate) fn wall_of(
     config: &FractureConfig,
     e: usize,
 ) -> Option<Wall> {
-    if config.plane_stress_walls {
-        skin.wall(asset, e)
-    } else {
-        None
+    match config.is_paper() {
+        true => None,
+        false => skin.wall(asset, e),
     }
 }
 
@@ -81,7 +80,7 @@ pub(crate) fn weak_place(
     e: usize,
 ) -> WeakPlace {
     let wall = wall_of(asset, skin, config, e);
-    let flaw = skin.flaw(asset.place(e)).filter(|_| config.surface_flaws);
+    let flaw = skin.flaw(asset.place(e)).filter(|_| !config.is_paper());
     match flaw.filter(|flaw| !pressed.contains(&flaw.triangle)) {
         Some(flaw) => {
             let (place, point) = Skin::on_face(asset, flaw, places.weights(e));

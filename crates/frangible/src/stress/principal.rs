@@ -1,8 +1,9 @@
 //! Principal values and axes of a symmetric 3 × 3 tensor.
 
-use glam::{DMat3, DVec3, Vec3};
+use glam::{DVec3, Vec3};
 
 use super::Symmetric3;
+use crate::mesh::symmetric_eigen;
 
 /// Bounds are compared with the strength less this share: the rounding of the bound itself.
 pub(crate) const MARGIN: f32 = 1e-4;
@@ -38,51 +39,15 @@ pub fn largest_eigenvalue_bound(s: &Symmetric3) -> f32 {
     mean + 2.0 * ((a * a + b * b + c * c) / 6.0 + (xy * xy + yz * yz + zx * zx) / 3.0).sqrt()
 }
 
-/// Principal values, falling, and their unit axes, by Jacobi rotations in f64.
+/// Principal values, falling, and their unit axes, in f64.
 #[must_use]
 pub fn principal_axes(s: &Symmetric3) -> ([f64; 3], [DVec3; 3]) {
-    let mut a = s.to_mat3().as_dmat3().to_cols_array_2d();
-    let mut v = DMat3::IDENTITY.to_cols_array_2d();
-    // A sweep roughly squares the off-diagonal part; six reach rounding from any start, and mostly three do.
-    for _ in 0..6 {
-        let off = a[0][1].abs() + a[0][2].abs() + a[1][2].abs();
-        if off <= 1e-17 * (a[0][0].abs() + a[1][1].abs() + a[2][2].abs()) {
-            break;
-        }
-        for (p, q) in [(0, 1), (0, 2), (1, 2)] {
-            if a[p][q] == 0.0 {
-                continue;
-            }
-            let theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
-            let t = if theta.is_finite() {
-                theta.signum() / (theta.abs() + (theta * theta + 1.0).sqrt())
-            } else {
-                0.0
-            };
-            let c = 1.0 / (t * t + 1.0).sqrt();
-            let sine = t * c;
-            for k in 0..3 {
-                let (x, y) = (a[k][p], a[k][q]);
-                a[k][p] = c * x - sine * y;
-                a[k][q] = sine * x + c * y;
-            }
-            for k in 0..3 {
-                let (x, y) = (a[p][k], a[q][k]);
-                a[p][k] = c * x - sine * y;
-                a[q][k] = sine * x + c * y;
-            }
-            for row in &mut v {
-                let (x, y) = (row[p], row[q]);
-                row[p] = c * x - sine * y;
-                row[q] = sine * x + c * y;
-            }
-        }
-    }
+    let (values, axes) = symmetric_eigen(s.to_mat3().as_dmat3());
     let mut order = [0, 1, 2];
-    order.sort_by(|&i, &j| a[j][j].total_cmp(&a[i][i]).then(i.cmp(&j)));
+    order.sort_by(|&i, &j| values[j].total_cmp(&values[i]).then(i.cmp(&j)));
     (
-        order.map(|i| a[i][i]),
-        order.map(|i| oriented(DVec3::new(v[0][i], v[1][i], v[2][i]).normalize())),
+        order.map(|i| values[i]),
+        order.map(|i| oriented(axes.col(i).normalize())),
     )
 }
 

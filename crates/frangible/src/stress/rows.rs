@@ -134,12 +134,7 @@ impl Rows {
             numbers: vec![[0.0; GROUP]; count.div_ceil(GROUP) * modes],
             modes,
         };
-        crate::vectors::widest(Fill {
-            rows: &mut rows,
-            asset,
-            elasticity,
-            points,
-        });
+        fill(&mut rows, asset, elasticity, points);
         rows
     }
 
@@ -266,27 +261,17 @@ pub(crate) fn of_shape(
     rows
 }
 
-/// Fills rows.
-struct Fill<'a> {
-    rows: &'a mut Rows,
-    asset: &'a Asset,
-    elasticity: &'a Elasticity,
-    points: &'a [RowPoint],
-}
-
-impl pulp::NullaryFnOnce for Fill<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        let modes = self.rows.modes;
-        let shapes = &self.asset.modes;
+widest! {
+    /// Fills rows.
+    fn fill(rows: &mut Rows, asset: &Asset, elasticity: &Elasticity, points: &[RowPoint]) {
+        let modes = rows.modes;
+        let shapes = &asset.modes;
         let mut sums: [Vec<f32>; MOST] = std::array::from_fn(|_| vec![0.0; modes]);
         let (mut row, mut nodes) = (0, Nodes::default());
-        for point in self.points {
+        for point in points {
             let count = point.frame.count();
             sums[..count].iter_mut().for_each(|sum| sum.fill(0.0));
-            point.nodes(self.asset, self.elasticity, &mut nodes);
+            point.nodes(asset, elasticity, &mut nodes);
             let first = nodes.first;
             for &(node, shares) in &nodes.shares {
                 for axis in 0..3 {
@@ -301,7 +286,7 @@ impl pulp::NullaryFnOnce for Fill<'_> {
                 }
             }
             for sum in &sums[..count] {
-                let group = &mut self.rows.numbers[row / GROUP * modes..][..modes];
+                let group = &mut rows.numbers[row / GROUP * modes..][..modes];
                 for (to, &from) in group.iter_mut().zip(sum.iter().rev()) {
                     to[row % GROUP] = from;
                 }

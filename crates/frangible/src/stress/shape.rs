@@ -30,36 +30,22 @@ impl Shape {
     /// Displacement of a node of the asset that it was made for, m/N.
     #[inline]
     pub(crate) fn at(&self, asset: &Asset, node: usize) -> [f32; 3] {
-        let block = self.blocks[node / BLOCK].get_or_init(|| {
-            crate::vectors::widest(Dots {
-                asset,
-                first: node / BLOCK * BLOCK,
-                amplitudes: &self.amplitudes,
-            })
-        });
+        let block = self.blocks[node / BLOCK]
+            .get_or_init(|| dots(asset, node / BLOCK * BLOCK, &self.amplitudes));
         block[node % BLOCK]
     }
 }
 
-/// Products of the rows of a block of nodes with some amplitudes.
-struct Dots<'a> {
-    asset: &'a Asset,
-    first: usize,
-    amplitudes: &'a [f32],
-}
-
-impl pulp::NullaryFnOnce for Dots<'_> {
-    type Output = [[f32; 3]; BLOCK];
-
-    #[inline(always)]
-    fn call(self) -> [[f32; 3]; BLOCK] {
-        let modes = &self.asset.modes;
-        let skipped = modes.count() - self.amplitudes.len();
-        let nodes = self.asset.analysis.nodes.len();
+widest! {
+    /// Products of the rows of a block of nodes with some amplitudes.
+    fn dots(asset: &Asset, first: usize, amplitudes: &[f32]) -> [[f32; 3]; BLOCK] {
+        let modes = &asset.modes;
+        let skipped = modes.count() - amplitudes.len();
+        let nodes = asset.analysis.nodes.len();
         let mut block = [[0.0; 3]; BLOCK];
-        for (node, to) in (self.first..nodes).zip(&mut block) {
+        for (node, to) in (first..nodes).zip(&mut block) {
             for (axis, to) in to.iter_mut().enumerate() {
-                *to = dot(&modes.row(3 * node + axis)[skipped..], self.amplitudes);
+                *to = dot(&modes.row(3 * node + axis)[skipped..], amplitudes);
             }
         }
         block

@@ -10,40 +10,14 @@ use crate::eigen::portable::{Entries, add_product};
 /// Columns that are factorised before their products are taken from the rest all at once.
 const BLOCK: usize = 32;
 
-/// Factorises a lower triangle, its unknowns renumbered: `place` is where each comes. False where it is not positive definite.
-pub(crate) fn factorise(
-    symbolic: &SymbolicSupernodalCholesky<usize>,
-    place: &[usize],
-    matrix: &SparseColMat<usize, f64>,
-    values: &mut [f64],
-) -> bool {
-    pulp::Arch::new().dispatch(Factorise {
-        symbolic,
-        place,
-        matrix,
-        values,
-    })
-}
-
-/// The factorisation, compiled for each kind of vectors.
-struct Factorise<'a> {
-    symbolic: &'a SymbolicSupernodalCholesky<usize>,
-    place: &'a [usize],
-    matrix: &'a SparseColMat<usize, f64>,
-    values: &'a mut [f64],
-}
-
-impl pulp::NullaryFnOnce for Factorise<'_> {
-    type Output = bool;
-
-    #[inline(always)]
-    fn call(self) -> bool {
-        let Self {
-            symbolic,
-            place,
-            matrix,
-            values,
-        } = self;
+frangible::widest! {
+    /// Factorises a lower triangle, its unknowns renumbered: `place` is where each comes. False where it is not positive definite.
+    pub(crate) fn factorise(
+        symbolic: &SymbolicSupernodalCholesky<usize>,
+        place: &[usize],
+        matrix: &SparseColMat<usize, f64>,
+        values: &mut [f64],
+    ) -> bool {
         let mut owner = vec![0; symbolic.nrows()];
         let bounds = symbolic
             .supernode_begin()

@@ -7,32 +7,13 @@ use crate::eigen::panel::{Row, WIDTH, add_multiple};
 /// Columns of the factor that are worked on at once.
 const COLUMNS: usize = 4;
 
-/// Replaces the rows of `x`, in the factor's order, by those of (L Lᵀ)⁻¹ x.
-pub(crate) fn solve(symbolic: &SymbolicSupernodalCholesky<usize>, values: &[f64], x: &mut [Row]) {
-    pulp::Arch::new().dispatch(Solve {
-        symbolic,
-        values,
-        x,
-    });
-}
-
-/// The substitution, compiled for each kind of vectors.
-struct Solve<'a> {
-    symbolic: &'a SymbolicSupernodalCholesky<usize>,
-    values: &'a [f64],
-    x: &'a mut [Row],
-}
-
-impl pulp::NullaryFnOnce for Solve<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        let Self {
-            symbolic,
-            values,
-            x,
-        } = self;
+frangible::widest! {
+    /// Replaces the rows of `x`, in the factor's order, by those of (L Lᵀ)⁻¹ x.
+    pub(crate) fn solve(
+        symbolic: &SymbolicSupernodalCholesky<usize>,
+        values: &[f64],
+        x: &mut [Row],
+    ) {
         let mut others: Vec<Row> = Vec::new();
         for s in 0..symbolic.n_supernodes() {
             let (panel, pattern, own) = parts(symbolic, values, s, x);

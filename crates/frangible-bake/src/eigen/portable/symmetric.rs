@@ -15,7 +15,7 @@ pub(crate) fn symmetric(matrix: &Block) -> Option<(Vec<f64>, Block)> {
     }
     let scale = largest.max(f64::MIN_POSITIVE);
     let full = Block::from_fn(n, n, |i, j| matrix.data[i.min(j) * n + i.max(j)] / scale);
-    let (values, vectors) = pulp::Arch::new().dispatch(Solve(full))?;
+    let (values, vectors) = solve(full)?;
     let mut order: Vec<usize> = (0..n).collect();
     order.sort_by(|&a, &b| values[a].total_cmp(&values[b]));
     let rising = order.iter().map(|&i| values[i] * scale).collect();
@@ -23,15 +23,10 @@ pub(crate) fn symmetric(matrix: &Block) -> Option<(Vec<f64>, Block)> {
     Some((rising, sorted))
 }
 
-/// The search for a matrix whose largest entry is one, compiled for each kind of vectors.
-struct Solve(Block);
-
-impl pulp::NullaryFnOnce for Solve {
-    type Output = Option<(Vec<f64>, Block)>;
-
-    #[inline(always)]
-    fn call(self) -> Self::Output {
-        let Self(mut full) = self;
+frangible::widest! {
+    /// The search for a matrix whose largest entry is one.
+    fn solve(full: Block) -> Option<(Vec<f64>, Block)> {
+        let mut full = full;
         let n = full.rows;
         let (mut diagonal, mut beside, reflections) = three_diagonals(&mut full);
         let mut vectors = Block::from_fn(n, n, |i, j| f64::from(u8::from(i == j)));

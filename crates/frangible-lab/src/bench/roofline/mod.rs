@@ -10,7 +10,7 @@ mod peak;
 use std::time::{Duration, Instant};
 
 use frangible::internals::stress::{DisplacementBatch, Law};
-use frangible::internals::{Stage, Vibration};
+use frangible::internals::{Drive, Stage, Vibration};
 use frangible::{Body, Breakable, FractureConfig};
 use serde::Serialize;
 
@@ -142,20 +142,18 @@ fn of_body(
     config.culling = false;
     let whole = vibration(&body, &contact, &config)?;
     let mut vibration = whole.clone();
-    vibration.pulse.total_steps = whole
-        .pulse
-        .total_steps
-        .min(BATCHES * DisplacementBatch::STRIDE);
+    let all_steps = whole.report.time_steps;
+    let steps = all_steps.min(BATCHES * DisplacementBatch::STRIDE);
+    if let Drive::Pulse { pulse, .. } = &mut vibration.drive {
+        pulse.total_steps = steps;
+    }
     let work = Work::of(&body, &vibration, &config);
     let product = displacement_time(&body, &vibration);
     // Some nodes belong to no weak point's element, and the stage leaves them out.
     let needed = product * work.nodes[0] as f64 / work.nodes[1] as f64;
     let stresses = stress_time(&body, &vibration, &config) - needed;
-    let (modes, steps) = (work.modes, whole.pulse.total_steps);
-    let batches = vibration
-        .pulse
-        .total_steps
-        .div_ceil(DisplacementBatch::STRIDE) as f64;
+    let batches = steps.div_ceil(DisplacementBatch::STRIDE) as f64;
+    let (modes, steps) = (work.modes, all_steps);
     let all = work.nodes[1];
     let shapes = 12 * modes * all;
     let fields = counts::NODE * all + 10 * 8 * body.asset().analysis.elements.len();

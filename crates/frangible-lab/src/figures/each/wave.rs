@@ -2,6 +2,7 @@
 
 use crate::plot::{Axis, Chart, Marker, Series};
 use frangible::glam::Vec3;
+use frangible::internals::Model;
 use frangible::internals::contact::{
     Pulse, admissible_duration, approach_energy, contact_duration, modal_load, pulse,
 };
@@ -230,7 +231,7 @@ fn wave(body: &Body, contact: frangible::Contact, config: &FractureConfig) -> Wa
     }
     // Beyond the contact in both models, to show the time after it.
     let mut config = config.clone();
-    config.timing = FractureConfig::default().timing;
+    config.model = Model::Ours;
     let pulse = pulse(asset, &load, duration, &config);
     Wave {
         motion: respond(&asset.modes, &asset.material, &load.modal_impulse, &pulse),

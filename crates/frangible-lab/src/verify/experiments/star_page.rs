@@ -274,8 +274,8 @@ fn star_or_rings(stars: &Stars) -> String {
     };
     format!(
         "Share of the crack length between {:.0} and {:.0} mm from the impact that runs within 45° of the radius; a star has 100 %, rings 0, lines \
-         without a preference 50 %. The 1 mm plate at {} m/s: default model {}, cracks that run at once and do not feel each other \
-         (`CrackTiming::Instant`, the paper's) {}.{verdict}",
+         without a preference 50 %. The 1 mm plate at {} m/s: default model {}, the paper's cracks, which run at once and do not \
+         feel each other (`Model::Paper`), {}.{verdict}",
         1e3 * RING[0],
         1e3 * RING[1],
         speeds.join(", "),

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use frangible::internals::{CrackTiming, Fields};
+use frangible::internals::{Fields, Model};
 use frangible::{Breakable, FractureConfig, InputError, Material};
 
 use super::blow::{Projectile, STEEL_DENSITY};
@@ -17,11 +17,9 @@ pub(crate) const LENGTH: f64 = 3.0 * WIDTH;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Variant {
     pub(crate) name: &'static str,
-    instant: bool,
-    green_lagrange: bool,
+    model: Model,
     strength: f64,
     weak_points: f64,
-    branching: bool,
     /// If true, the branching constant is that of glass.
     forks_as_glass: bool,
     /// Young's modulus, Pa, where it is another.
@@ -43,11 +41,9 @@ enum Shot {
 /// The default model, which all other variants start from.
 pub(crate) const DEFAULT: Variant = Variant {
     name: "default",
-    instant: false,
-    green_lagrange: false,
+    model: Model::Ours,
     strength: 1.0,
     weak_points: 1.0,
-    branching: true,
     forks_as_glass: false,
     modulus: None,
     scatter: true,
@@ -55,15 +51,10 @@ pub(crate) const DEFAULT: Variant = Variant {
 };
 
 /// The other ways in which the measured thickness is computed.
-pub(crate) const VARIANTS: [Variant; 13] = [
+pub(crate) const VARIANTS: [Variant; 11] = [
     Variant {
-        name: "cracks at once, no release (`CrackTiming::Instant`)",
-        instant: true,
-        ..DEFAULT
-    },
-    Variant {
-        name: "cracks neither fork nor pass those that open from the other face (`branching`)",
-        branching: false,
+        name: "the paper's cracks: at once, planar, from centres of tetrahedra (`Model::Paper`)",
+        model: Model::Paper,
         ..DEFAULT
     },
     Variant {
@@ -84,11 +75,6 @@ pub(crate) const VARIANTS: [Variant; 13] = [
     Variant {
         name: "every weak point as strong as the others, R_c",
         scatter: false,
-        ..DEFAULT
-    },
-    Variant {
-        name: "Green and Lagrange's strain of the linear modes (`green_lagrange`, the paper's)",
-        green_lagrange: true,
         ..DEFAULT
     },
     Variant {
@@ -141,11 +127,7 @@ impl Variant {
     /// Cracks run with this configuration.
     pub(crate) fn config(self) -> FractureConfig {
         let mut config = FractureConfig::default();
-        config.green_lagrange = self.green_lagrange;
-        config.branching = self.branching;
-        if self.instant {
-            config.timing = CrackTiming::Instant;
-        }
+        config.model = self.model;
         config
     }
 

@@ -100,52 +100,41 @@ impl Memory {
         but: Option<u32>,
         now: f64,
     ) -> bool {
-        crate::vectors::widest(Update {
-            memory: self,
-            sources,
-            ring,
-            but,
-            now,
-        })
+        update(self, sources, ring, but, now)
     }
 }
 
-/// The look of a point at all cracks of a ring.
-struct Update<'a> {
-    memory: &'a mut Memory,
-    sources: Sources<'a>,
-    ring: Ring,
-    but: Option<u32>,
-    now: f64,
-}
-
-impl pulp::NullaryFnOnce for Update<'_> {
-    type Output = bool;
-
-    #[inline(always)]
-    fn call(self) -> bool {
+widest! {
+    /// The look of a point at all cracks of a ring.
+    fn update(
+        memory: &mut Memory,
+        sources: Sources<'_>,
+        ring: Ring,
+        but: Option<u32>,
+        now: f64,
+    ) -> bool {
         let Memory {
             place,
             beta,
             shadows,
             seen,
-        } = self.memory;
+        } = memory;
         let mut falls = false;
         let mut i = 0;
-        let Sources { extents, .. } = self.sources;
+        let Sources { extents, .. } = sources;
         // Cracks that have not changed, and were heard to the end, leave what they left.
-        let seen = std::mem::replace(&mut seen[self.ring as usize], extents.seen(self.now));
+        let seen = std::mem::replace(&mut seen[ring as usize], extents.seen(now));
         // Loops and no closures, which would be compiled for the plain processor.
         for b in 0..extents.blocks() {
-            let mut about = extents.about(b, *place, self.ring, seen, self.now);
+            let mut about = extents.about(b, *place, ring, seen, now);
             while about != 0 {
                 let crack = BLOCK * b + about.trailing_zeros() as usize;
                 about &= about - 1;
                 let number = crack as u32;
-                if self.but == Some(number) {
+                if but == Some(number) {
                     continue;
                 }
-                let Some(new) = self.sources.cast(crack, *place, *beta, self.now) else {
+                let Some(new) = sources.cast(crack, *place, *beta, now) else {
                     continue;
                 };
                 i += shadows[i..].partition_point(|(of, _)| *of < number);
