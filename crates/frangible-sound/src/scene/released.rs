@@ -53,11 +53,18 @@ pub(super) fn released(
     let speed = CRACK_SPEED * cast.sounding(blow.node).material().rayleigh_speed();
     for piece in blow.pieces.clone() {
         let (id, body) = nodes.ready(synth, cast, piece, blow.time)?;
-        let push = kept(nodes, cast, blow, (piece, &body), moving);
+        let kept = kept(nodes, cast, blow, (piece, &body), moving);
+        let square: f64 = kept.iter().map(|&v| f64::from(v).powi(2)).sum();
+        // As large as the momentum of a mass that has this energy, by which strikes are chosen where there are too many.
+        let impulse = (body.mass * square).sqrt();
+        if !(impulse > 0.0 && impulse.is_finite()) {
+            continue;
+        }
+        let push = kept.iter().map(|&v| (f64::from(v) / impulse) as f32);
         let duration = (2.0 * body.sphere.radius / speed).max(SHORTEST);
         let strike = Strike {
-            pulse: Arc::new(Pulse::half_sine(1.0, duration)),
-            push,
+            pulse: Arc::new(Pulse::half_sine(impulse, duration)),
+            push: push.collect(),
             direction: Vec3::ZERO,
         };
         synth.strike(blow.time + apart, id, strike)?;
