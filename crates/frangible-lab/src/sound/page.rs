@@ -5,6 +5,7 @@ use std::fmt::Write;
 
 use frangible_sound::CRACK_SHARE;
 
+use super::page_levels::{landings_text, levels_text};
 use super::scenes::SEEDS;
 use super::{FRICTIONS, Heard, RATE};
 use crate::page::{Page, table};
@@ -29,8 +30,8 @@ impl Heard {
         );
         self.partials(&mut text);
         self.cup_text(&mut text, folder);
-        self.levels_text(&mut text, folder);
-        self.landings_text(&mut text);
+        levels_text(&self.levels, &mut text, folder);
+        landings_text(&self.landings, &mut text);
         self.scenes_text(&mut text, folder);
         limits(&mut text);
         let mut pictures = Vec::new();
