@@ -11,8 +11,8 @@ use bevy::prelude::*;
 use frangible::{Asset as Baked, ImpactReport, Material};
 use frangible_sound::glam::DVec3;
 use frangible_sound::{
-    Hearing, Level, Leveller, Limiter, Listener, Outlet, RecordedBlow, RecordedSlide, RecordedTouch, SoundError,
-    SoundFloor, SynthConfig, SynthReport, Touching, recorded_blow,
+    Hearing, Level, Leveller, Limiter, Listener, Outlet, RecordedBlow, RecordedSlide,
+    RecordedTouch, SoundError, SoundFloor, SynthConfig, SynthReport, Touching, recorded_blow,
 };
 
 use crate::meshes::into;
