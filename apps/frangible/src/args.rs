@@ -80,6 +80,16 @@ pub(crate) struct FilmArgs {
     #[arg(long)]
     pub(crate) no_sound: bool,
 
+    /// Level of the sound: at a loudness of −16 LUFS, with soft sounds raised and loud ones limited (loudness), or true to scale, as loud as fits
+    /// (true)
+    #[arg(
+        long,
+        value_name = "loudness|true",
+        hide_possible_values = true,
+        default_value = "loudness"
+    )]
+    pub(crate) level: LevelArg,
+
     /// Length of the film in seconds
     #[arg(
         long,
@@ -374,6 +384,32 @@ pub(crate) struct BreakArgs {
     /// Write no sound (WAV)
     #[arg(long)]
     pub(crate) no_sound: bool,
+
+    /// Level of the sound: at a loudness of −16 LUFS, with soft sounds raised and loud ones limited (loudness), or true to scale, as loud as fits
+    /// (true)
+    #[arg(
+        long,
+        value_name = "loudness|true",
+        hide_possible_values = true,
+        default_value = "loudness"
+    )]
+    pub(crate) level: LevelArg,
+}
+
+/// Level of a sound file.
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+pub(crate) enum LevelArg {
+    Loudness,
+    True,
+}
+
+impl From<LevelArg> for frangible_sound::Level {
+    fn from(level: LevelArg) -> Self {
+        match level {
+            LevelArg::Loudness => Self::Loudness,
+            LevelArg::True => Self::True,
+        }
+    }
 }
 
 /// Detail of drawn pieces.

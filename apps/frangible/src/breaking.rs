@@ -13,6 +13,7 @@ use frangible_scenes::{
 };
 
 use crate::args::BreakArgs;
+use crate::level::encoded;
 use crate::pictures;
 use crate::progress::Bar;
 use crate::report::{BodyReport, Report, frames_ms};
@@ -59,7 +60,7 @@ pub(crate) fn run(file: Option<&Path>, args: &BreakArgs) -> Result<(), Box<dyn E
     notes.extend(missed(run));
     notes.extend(lighter(run));
 
-    let mut files = Vec::new();
+    let (mut files, mut heard) = (Vec::new(), None);
     let mut write = |name: String, bytes: &[u8]| -> Result<(), Box<dyn Error>> {
         let path = args.out.join(name);
         write_atomically(&path, bytes)?;
@@ -76,9 +77,14 @@ pub(crate) fn run(file: Option<&Path>, args: &BreakArgs) -> Result<(), Box<dyn E
     if let Some(name) = wav {
         bar.show(&format!("{}: synthesising sound", scene.name), 1.0);
         let sounded = sound(run, &scene, &sound_config(run, &scene))?;
-        write(name, &sounded.wav()?)?;
-        stages.push(("sound".into(), 1e3 * sounded.seconds.iter().sum::<f64>()));
-        notes.extend(sound_notes(&sounded));
+        let clock = Instant::now();
+        let (bytes, report) = encoded(&sounded, args.level.into())?;
+        write(name, &bytes)?;
+        let seconds = sounded.seconds.iter().sum::<f64>() + clock.elapsed().as_secs_f64();
+        stages.push(("sound".into(), 1e3 * seconds));
+        notes.push(report.note());
+        notes.extend(left_out(&sounded));
+        heard = Some(report);
     }
     if picture.is_some() || sheet.is_some() {
         bar.show(&format!("{}: drawing", scene.name), 1.0);
@@ -105,6 +111,7 @@ pub(crate) fn run(file: Option<&Path>, args: &BreakArgs) -> Result<(), Box<dyn E
             None
         },
         bodies,
+        sound: heard,
         at_rest: run.at_rest,
         simulated_s: run.simulated,
         frames_ms: frames_ms(run),
@@ -157,25 +164,14 @@ fn lighter(run: &Run) -> Option<String> {
     })
 }
 
-/// Notes on a sound: its peak level or its silence, and anything left out because there was too much at once.
-fn sound_notes(sounded: &Sounded) -> Vec<String> {
-    let (report, mut notes) = (&sounded.report, Vec::new());
-    if sounded.loudest() == 0.0 {
-        notes.push("the sound is silent because nothing was struck".into());
-    } else {
-        notes.push(format!(
-            "the loudest sample of the sound corresponds to {:.0} dB",
-            sounded.peak_level()
-        ));
-    }
-    let left_out = report.strikes_left_out;
-    if left_out + report.over_budget > 0 {
-        notes.push(format!(
-            "the sound omits the softest {left_out} strikes and {} tones because too many sounded at once",
-            report.over_budget
-        ));
-    }
-    notes
+/// Note on what a sound lacks because there was too much at once.
+fn left_out(sounded: &Sounded) -> Option<String> {
+    let (strikes, tones) = (sounded.report.strikes_left_out, sounded.report.over_budget);
+    (strikes + tones > 0).then(|| {
+        format!(
+            "the sound omits the softest {strikes} strikes and {tones} tones because too many sounded at once"
+        )
+    })
 }
 
 /// Share of its volume by which the mesh of a wall may differ from the drawn surface without a note. What a lattice loses at sharp corners is in the

@@ -10,6 +10,7 @@ use frangible_recording::{Recording, View};
 use frangible_scenes::{BakedBody, Scene, Sounded, bake_opened, open_scene, play};
 
 use crate::args::FilmArgs;
+use crate::level::encoded;
 #[cfg(feature = "view")]
 use crate::microseconds::microseconds;
 use crate::progress::Bar;
@@ -69,16 +70,19 @@ pub(crate) fn run(args: &FilmArgs) -> Result<(), Box<dyn Error>> {
         slow_motion(&scene, &baked, &*draw, args, &bar, &mut add)?
     };
     drop(bar);
+    let mut heard = String::new();
     if let Some(mut sound) = sound {
         let samples = pictures as f64 / args.rate * sound.config.rate;
         let channels = sound.config.listener.channels;
         sound.samples.truncate(samples as usize * channels);
-        film.set_sound(sound.wav()?);
+        let (bytes, report) = encoded(&sound, args.level.into())?;
+        film.set_sound(bytes);
+        heard = format!("note {}\n", report.note());
     }
     film.finish()?;
     let cut_short = if pictures < count { ", cut short" } else { "" };
     say(&format!(
-        "{pictures} pictures{cut_short}\n{}\n",
+        "{pictures} pictures{cut_short}\n{}\n{heard}",
         path.display()
     ))?;
     Ok(())

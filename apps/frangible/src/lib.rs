@@ -4,6 +4,7 @@ mod args;
 mod baking;
 mod breaking;
 mod filming;
+mod level;
 mod list;
 #[cfg(feature = "view")]
 mod microseconds;

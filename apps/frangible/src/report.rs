@@ -6,6 +6,8 @@ use frangible::ImpactReport;
 use frangible_scenes::{BakedBody, BlowRecord, Run};
 use serde::Serialize;
 
+use crate::level::SoundReport;
+
 /// Report of a run. If the scene has one body, its figures stand beside the scene's; of several they stand in a list.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Report {
@@ -15,6 +17,9 @@ pub(crate) struct Report {
     pub(crate) only: Option<BodyReport>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(crate) bodies: Vec<BodyReport>,
+    /// Level of the sound file, if there is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) sound: Option<SoundReport>,
     pub(crate) at_rest: bool,
     pub(crate) simulated_s: f64,
     /// Wall-clock times of frames of 1/60 s: median, 99th percentile, longest.

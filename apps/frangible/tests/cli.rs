@@ -209,6 +209,12 @@ fn a_gentle_drop_is_reported_as_json() {
     let mut files = folder.files();
     files.sort();
     assert_eq!(files, ["glass.glb", "glass.wav"]);
+    let sound = &report["sound"];
+    let level = |key: &str| sound[key].as_f64().unwrap_or(f64::NAN);
+    assert_eq!(sound["level"], "loudness", "{report:#}");
+    assert!((level("loudness_lufs") + 16.0).abs() < 0.5, "{report:#}");
+    assert!(level("true_peak_db") < -0.99, "{report:#}");
+    assert!(level("full_scale_db") <= level("loudest_db"), "{report:#}");
     // Dropped by 3 cm it is heard, and lasts a second at least at 48 kHz and four bytes.
     let wav = fs::read(folder.0.join("glass.wav")).expect("the WAV");
     assert!(wav.starts_with(b"RIFF") && wav.len() > 4 * 48_000);
@@ -218,6 +224,22 @@ fn a_gentle_drop_is_reported_as_json() {
             .expect("the GLB")
             .starts_with(b"glTF")
     );
+}
+
+#[test]
+fn a_sound_true_to_scale_is_as_loud_as_fits_and_says_how_loud_that_is() {
+    let folder = Folder::new("true");
+    let args = "--drop 0.03 --no-pictures --modes 20 --level true";
+    let args: Vec<&str> = args.split(' ').collect();
+    let output = frangible(&args, Some(&folder.0));
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let table = text(&output.stdout);
+    let note = "the loudest sample of the sound corresponds to ";
+    assert!(table.contains(note), "no `{note}` in: {table}");
+    let wav = fs::read(folder.0.join("glass.wav")).expect("the WAV");
+    let samples = wav[44..].as_chunks::<2>().0.iter();
+    let loudest = samples.map(|bytes| i16::from_le_bytes(*bytes).unsigned_abs());
+    assert_eq!(loudest.max(), Some(32_767));
 }
 
 #[test]

@@ -11,8 +11,8 @@ use bevy::prelude::*;
 use frangible::{Asset as Baked, ImpactReport, Material};
 use frangible_sound::glam::DVec3;
 use frangible_sound::{
-    Hearing, Limiter, Listener, Outlet, RecordedBlow, RecordedSlide, RecordedTouch, SoundError,
-    SoundFloor, SynthConfig, SynthReport, Touching, recorded_blow,
+    Hearing, Level, Leveller, Limiter, Listener, Outlet, RecordedBlow, RecordedSlide,
+    RecordedTouch, SoundError, SoundFloor, SynthConfig, SynthReport, Touching, recorded_blow,
 };
 
 use crate::meshes::into;
@@ -28,7 +28,10 @@ pub struct FrangibleSoundPlugin {
     pub rate: f64,
     /// Height, m, and material of a level floor, which reflects sound and sounds itself when struck. Default: stone at y = 0.
     pub floor: Option<(f32, Material)>,
-    /// Sound pressure at full scale, Pa; a soft limiter acts above 0.7 of it. Default 20.
+    /// Level of the samples. Default [`Level::Loudness`]: soft sounds are raised and loud ones limited by a [`Leveller`]. With [`Level::True`] all
+    /// have the same gain, and a soft limiter acts above 0.7 of full scale.
+    pub level: Level,
+    /// Sound pressure at full scale, Pa. Default [`Leveller::LIVE`], 10.
     pub full_scale: f64,
 }
 
@@ -37,7 +40,8 @@ impl Default for FrangibleSoundPlugin {
         Self {
             rate: 48_000.0,
             floor: Material::preset("stone").ok().map(|stone| (0.0, stone)),
-            full_scale: 20.0,
+            level: Level::default(),
+            full_scale: Leveller::LIVE,
         }
     }
 }
@@ -59,9 +63,36 @@ pub struct Heard {
     slides: Vec<RecordedSlide>,
     floor: Option<f32>,
     listener: Option<Listener>,
-    limiter: Limiter,
+    playback: Playback,
     outlet: Outlet,
     pressures: Vec<f32>,
+}
+
+/// Converts pressures, Pa, to samples.
+enum Playback {
+    Levelled(Box<Leveller>),
+    True(Limiter),
+}
+
+impl Playback {
+    fn new(plugin: &FrangibleSoundPlugin, channels: usize) -> Result<Self, SoundError> {
+        let (rate, full_scale) = (plugin.rate, plugin.full_scale);
+        Ok(match plugin.level {
+            Level::Loudness => Self::Levelled(Box::new(Leveller::new(rate, channels, full_scale)?)),
+            Level::True => Self::True(Limiter::new(full_scale)?),
+        })
+    }
+
+    fn samples(&mut self, pressures: &[f32]) -> Result<Vec<f32>, SoundError> {
+        match self {
+            Self::Levelled(leveller) => {
+                let mut samples = Vec::with_capacity(pressures.len());
+                leveller.level(pressures, &mut samples)?;
+                Ok(samples)
+            }
+            Self::True(limiter) => Ok(pressures.iter().map(|&p| limiter.sample(p)).collect()),
+        }
+    }
 }
 
 impl Heard {
@@ -82,7 +113,7 @@ impl Heard {
             slides: Vec::new(),
             floor: floor.map(|(height, _)| *height),
             listener: None,
-            limiter: Limiter::new(plugin.full_scale)?,
+            playback: Playback::new(plugin, listener.channels)?,
             outlet: Outlet::new(plugin.rate),
             pressures: Vec::new(),
         })
@@ -209,11 +240,10 @@ fn hear(
     heard.troupe.leave(&mut heard.hearing, &there, now);
     heard.pressures.clear();
     heard.hearing.until(now, &mut heard.pressures);
-    let limiter = &mut heard.limiter;
-    let samples: Vec<f32> = (heard.pressures.iter())
-        .map(|&pressure| limiter.sample(pressure))
-        .collect();
-    heard.outlet.put(&samples);
+    match heard.playback.samples(&heard.pressures) {
+        Ok(samples) => heard.outlet.put(&samples),
+        Err(error) => error!("the sound of a step is missing: {error}"),
+    }
 }
 
 impl Heard {

@@ -10,7 +10,9 @@ mod played;
 
 use frangible::Material;
 use frangible_recording::View;
-use frangible_sound::{Hearing, Listener, SoundError, SoundFloor, SynthConfig, SynthReport, wav};
+use frangible_sound::{
+    Hearing, Levelled, Listener, SoundError, SoundFloor, SynthConfig, SynthReport, by_loudness, wav,
+};
 
 use crate::result::Run;
 use crate::scene::Scene;
@@ -38,7 +40,7 @@ pub struct Sounded {
 }
 
 impl Sounded {
-    /// Encodes the sound as a WAV file, normalized so that full scale is the peak pressure, [`Sounded::loudest`].
+    /// Encodes the sound as a WAV file true to scale, normalized so that full scale is the peak pressure, [`Sounded::loudest`].
     ///
     /// # Errors
     /// The errors of [`wav`].
@@ -49,6 +51,15 @@ impl Sounded {
             self.config.rate,
             self.loudest(),
         )
+    }
+
+    /// Levels the sound to an integrated loudness, LUFS, so that soft parts are heard beside loud ones.
+    ///
+    /// # Errors
+    /// The errors of [`by_loudness`].
+    pub fn levelled(&self, target: f64) -> Result<Levelled, SoundError> {
+        let channels = self.config.listener.channels;
+        by_loudness(&self.samples, channels, self.config.rate, target)
     }
 
     /// Returns the peak pressure, Pa.

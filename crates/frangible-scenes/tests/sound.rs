@@ -1,9 +1,10 @@
-//! Energy of the sound of whole scenes.
+//! Energy and level of the sound of whole scenes.
 
 use frangible_scenes::{
     BakedBody, LiveScene, LiveSound, Run, Scene, Sources, bake, energy_lost, energy_radiated, play,
-    scene, sound, sound_config,
+    scene, sound, sound_config, sound_of,
 };
+use frangible_sound::{SPEED_OF_SOUND, TARGET};
 
 const NONE: Sources = Sources {
     blows: false,
@@ -132,4 +133,64 @@ fn a_scene_on_the_move_sounds_as_its_recording_does() {
     // Afterwards the pieces fly by steps of another length and land elsewhere: when and how the largest ones land decides the energy of all.
     let ratio = energy(&heard) / energy(known);
     assert!((0.1..10.0).contains(&ratio), "{ratio}");
+}
+
+/// Level of 20 ms of both channels from a time on, dB over 1.
+fn short_time(samples: &[f32], rate: f64, from: f64) -> f64 {
+    let first = 2 * (from * rate) as usize;
+    let part = samples.iter().skip(first).take(2 * (0.02 * rate) as usize);
+    let power: f64 = part.clone().map(|&s| f64::from(s).powi(2)).sum();
+    10.0 * (power / part.count().max(1) as f64).max(1e-30).log10()
+}
+
+#[test]
+fn a_crash_and_the_shards_that_land_are_heard_at_one_loudness() {
+    let (scene, run, _) = glass();
+    let config = sound_config(&run, &scene);
+    let sounded = sound(&run, &scene, &config).expect("a sound");
+    let levelled = sounded.levelled(TARGET).expect("a level");
+    let loudness = levelled.loudness.integrated.expect("loud enough");
+    assert!((loudness - TARGET).abs() < 0.5, "{loudness} LUFS");
+    assert!(levelled.loudness.true_peak.expect("a peak") < -0.99);
+    let broke = run.recording.blows.iter().find(|b| !b.pieces.is_empty());
+    let broke = broke.expect("it breaks").time;
+    let below = |samples: &[f32]| {
+        let crash = (0..10).map(|i| short_time(samples, config.rate, broke + 0.01 * f64::from(i)));
+        let crash = crash.fold(f64::NEG_INFINITY, f64::max);
+        let landings = run
+            .recording
+            .touches
+            .iter()
+            .filter(|t| t.time > broke + 0.15);
+        let mut below: Vec<f64> = landings
+            .map(|touch| {
+                let way = (touch.point.as_dvec3() - config.listener.place).length();
+                crash - short_time(samples, config.rate, touch.time + way / SPEED_OF_SOUND)
+            })
+            .collect();
+        below.sort_by(f64::total_cmp);
+        below[below.len() / 2]
+    };
+    let (before, after) = (below(&sounded.samples), below(&levelled.samples));
+    println!("landings are {before:.1} dB below the crash before, {after:.1} after");
+    assert!((0.0..30.0).contains(&after) && after < before - 3.0);
+}
+
+#[test]
+fn the_pieces_of_a_glass_ring_on_with_what_it_had() {
+    let (scene, run, _) = glass();
+    let config = sound_config(&run, &scene);
+    let blows = Sources {
+        blows: true,
+        ..NONE
+    };
+    let heard = sound_of(&run, &scene, &config, blows).expect("a sound");
+    let broke = run.recording.blows.iter().find(|b| !b.pieces.is_empty());
+    let broke = broke.expect("it breaks").time;
+    // The blow and the body that broke are over after some milliseconds and their way.
+    let [crash, rings, late] =
+        [0.0, 0.03, 0.3].map(|after| short_time(&heard.samples, config.rate, broke + after));
+    println!("{crash:.0}, {rings:.0}, {late:.0} dB");
+    assert!((3.0..40.0).contains(&(crash - rings)), "{crash} {rings}");
+    assert!(rings - late > 20.0, "{rings} {late}");
 }

@@ -54,8 +54,8 @@ const KNOWN: [Known; 12] = [
             "paper-slab-high",
             "paper-slab-very-high",
         ],
-        damping: rayleigh(1.0, 1e-7),
-        source: WANG_JAMES,
+        damping: hysteretic(1e-3),
+        source: CREMER,
     },
     Known {
         names: &["porcelain", "paper-piggy", "paper-rabbit"],

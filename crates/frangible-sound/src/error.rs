@@ -42,6 +42,9 @@ pub enum SoundError {
         /// Number of bodies added so far.
         count: usize,
     },
+    /// The loudness of the samples could not be measured.
+    #[error("the loudness of the samples cannot be measured: {0}")]
+    Loudness(String),
     /// The samples could not be written as a WAV file.
     #[error("the samples cannot be written as WAV: {0}")]
     Wav(String),

@@ -13,8 +13,8 @@
 //! - **The floor** reflects sound and sounds itself when struck; the [listener](Listener) has two ears with travel times.
 //! - **A limit** on the number of resonators keeps the loudest and drops masked ones, without clicks.
 //! - **A scene**, or the world of a game, is converted to sound by a [`Hearing`], which only needs the events.
-//! - **The volume** is up to the caller: [`wav()`] scales by a full-scale pressure, and for live playback a soft [`Limiter`] reduces and reports
-//!   excessive pressures.
+//! - **The level** for loudspeakers: [`by_loudness`] brings a file to a loudness by EBU R 128 at which crash and landings are both heard, and a
+//!   [`Leveller`] does the same live. [`wav()`] and a soft [`Limiter`] keep the true levels.
 //!
 //! ```
 //! use std::sync::Arc;
@@ -57,6 +57,7 @@ mod config;
 mod damping;
 mod ellipsoid;
 mod error;
+mod level;
 mod limiter;
 mod listener;
 mod of_asset;
@@ -82,6 +83,7 @@ pub use ellipsoid::moved_air;
 pub use error::SoundError;
 pub use frangible_recording::{Pose, RecordedBlow, RecordedSlide, RecordedTouch};
 pub use glam;
+pub use level::{Level, Levelled, Leveller, LevellerReport, Loudness, TARGET, by_loudness};
 pub use limiter::{Limiter, LimiterReport};
 pub use listener::{Listener, SoundFloor};
 pub use of_asset::{AssetSound, HIGHEST};

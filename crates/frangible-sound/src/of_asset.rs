@@ -77,6 +77,22 @@ impl AssetSound {
         sums.truncate(self.count);
         sums
     }
+
+    /// Returns the motion of the surface point nearest to a point, m, in the body frame: the sum of the modes with these weights.
+    #[must_use]
+    pub fn motion(&self, point: Vec3, weights: &[f32]) -> Vec3 {
+        let asset = self.body.asset();
+        let at = self.body.nearest_on_surface(point);
+        let mut sum = Vec3::ZERO;
+        each_row(asset, &at, |node, weight| {
+            let along = asset.modes.rows(node).map(|row| {
+                let modes = row[..self.count].iter().zip(weights);
+                modes.map(|(phi, weight)| phi * weight).sum::<f32>()
+            });
+            sum += weight * Vec3::from(along);
+        });
+        sum
+    }
 }
 
 /// The triangles of the surface as elements, with their corners.

@@ -219,8 +219,8 @@ impl Synth {
         self.events.is_empty() && self.silent > delays && self.ready.iter().all(|&s| s == 0.0)
     }
 
-    /// Fills `out` with the pressures of the next samples, Pa, interleaved for two channels. A [`Limiter`](crate::Limiter) converts them to
-    /// samples for playback.
+    /// Fills `out` with the pressures of the next samples, Pa, interleaved for two channels. A [`Leveller`](crate::Leveller) or a
+    /// [`Limiter`](crate::Limiter) converts them to samples for playback.
     pub fn render(&mut self, out: &mut [f32]) {
         for sample in out {
             if self.ready.is_empty() {

@@ -6,14 +6,19 @@
 mod cost;
 mod cup;
 mod faces;
+mod landing;
+mod levels;
 mod objects;
 mod page;
+mod page_levels;
 mod scenes;
 
 use std::error::Error;
 
 pub use cost::Cost;
 pub use cup::{Cup, FRICTIONS, Knocked};
+pub use landing::Landing;
+pub use levels::HeardLevel;
 pub use objects::{Object, Partial};
 pub use scenes::{Drop, HeardScene};
 
@@ -29,6 +34,10 @@ pub struct Heard {
     pub cup: Cup,
     /// Scenes.
     pub scenes: Vec<HeardScene>,
+    /// Scenes at two levels.
+    pub levels: Vec<HeardLevel>,
+    /// Shards that land.
+    pub landings: Vec<Landing>,
     /// The glass dropped from heights that double.
     pub drops: Vec<Drop>,
     /// Computing time of a resonator.
@@ -50,6 +59,8 @@ impl Heard {
             scenes.push(HeardScene::compute(name)?);
             hear(0.35 + 0.5 * (i + 1) as f64 / scenes::NAMES.len() as f64);
         }
+        let (levels, landings) = (levels::all()?, landing::all()?);
+        hear(0.9);
         let drops = scenes::drops()?;
         hear(0.98);
         let cost = Cost::measure()?;
@@ -57,6 +68,8 @@ impl Heard {
             objects,
             cup,
             scenes,
+            levels,
+            landings,
             drops,
             cost,
         })

@@ -5,6 +5,7 @@ use std::fmt::Write;
 
 use frangible_sound::CRACK_SHARE;
 
+use super::page_levels::{landings_text, levels_text};
 use super::scenes::SEEDS;
 use super::{FRICTIONS, Heard, RATE};
 use crate::page::{Page, table};
@@ -22,13 +23,15 @@ impl Heard {
         let mut text = String::from(
             "# Sound\n\nWritten by `frangible-lab sound --write docs`, which computes it anew. Nothing passes or fails here; the tests of \
              `frangible-sound` check radiated power, decay, energy and onsets against closed forms.\n\n\
-             `frangible break` writes the sound of a scene beside its animation, as loud as fits, and says how many decibels its largest number stands for; \
-             the viewer and its page play what happens as it comes, with a full scale of 117 dB and a soft limiter. The modes that decide where a body breaks ring on under the same \
+             `frangible break` writes the sound of a scene beside its animation at the level of its loudness ([below](#the-level)); \
+             the viewer and its page play what happens as it comes, at a fixed full scale of 114 dB. The modes that decide where a body breaks ring on under the same \
              forces; what they send to the air follows in closed form from an equivalent sphere; pieces without modes of their own ring as a plate of \
              their size.\n\n",
         );
         self.partials(&mut text);
         self.cup_text(&mut text, folder);
+        levels_text(&self.levels, &mut text, folder);
+        landings_text(&self.landings, &mut text);
         self.scenes_text(&mut text, folder);
         limits(&mut text);
         let mut pictures = Vec::new();
@@ -47,6 +50,10 @@ impl Heard {
             let end = (scene.long.min(4.0) * RATE) as usize;
             let samples = &scene.samples[..end.min(scene.samples.len())];
             pictures.push(picture(&scene.name, &scene.name, samples, &scene.blows)?);
+        }
+        for level in &self.levels {
+            let chart = level.chart().draw(SIZE.0, SIZE.1);
+            pictures.push((format!("level-{}", level.name), png(&chart)?));
         }
         Ok(Page { text, pictures })
     }
@@ -157,7 +164,8 @@ impl Heard {
             text,
             "## Scenes\n\nThe ears are where the camera is. *First sound* is when it should arrive by the time of the first contact and its way, and when \
              it does; a body is as large as its sound is early. The loudest pressure is the full \
-             scale of the scene's WAV: the file is as loud as fits, and nothing in it is bent. Cracks give {:.0} % of their energy to the modes on both sides.\n\n",
+             scale of the scene's WAV with `--level true`, in which nothing is bent. Cracks give {:.0} % of their energy to the modes on both sides, and the pieces \
+             keep the velocities that the body had at their places: what of them is no motion as a whole rings on.\n\n",
             100.0 * CRACK_SHARE
         );
         let rows: Vec<Vec<String>> = (self.scenes.iter())
@@ -271,7 +279,8 @@ fn limits(text: &mut String) {
     text.push_str(
         "## What is not there\n\n\
          - The floor does not hum under what slides or rolls on it.\n\
-         - The vibration that a body has when it breaks ends there, within 32 samples; its pieces begin with what the cracks give them.\n\
+         - The bending that a body has when it breaks is lost, since the faces of its cracks press and rub on each other while they part; its pieces \
+           keep its velocities and get what the cracks give them. A piece that springs back freely would be louder.\n\
          - When within a step of the rigid bodies two things touch is not known; a moment of the step is drawn for each touch.\n\
          - Pieces that cannot break again have the tones of a plate of their size and not their own.\n\
          - No cavities (the hollow of a bottle, which one blows on), no sound that bends around other bodies, no rooms.\n\

@@ -45,7 +45,7 @@ pub struct HeardScene {
 }
 
 /// Time constant of a sound level meter set to *fast*, s.
-const FAST: f64 = 0.125;
+pub(super) const FAST: f64 = 0.125;
 
 impl HeardScene {
     /// Bakes, plays and hears a built-in scene.

@@ -9,7 +9,7 @@ use glam::Vec3;
 
 use super::cast::{Cast, Sounding};
 use super::nodes::{Nodes, carried};
-use super::place;
+use super::{place, released};
 use crate::error::SoundError;
 use crate::pulse::Pulse;
 use crate::strike::{CRACK_SHARE, CRACK_SPEED, Strike};
@@ -68,8 +68,9 @@ pub(super) fn blows(
     cast: &dyn Cast,
     blow: &RecordedBlow,
 ) -> Result<(), SoundError> {
-    let (id, _) = nodes.ready(synth, cast, blow.node, blow.time)?;
+    let (id, body) = nodes.ready(synth, cast, blow.node, blow.time)?;
     let pose = cast.pose(blow.node, blow.time);
+    let mut pulses = Vec::new();
     for recorded in &blow.pulses {
         let pulse = Arc::new(Pulse {
             time_step: recorded.time_step,
@@ -80,6 +81,7 @@ pub(super) fn blows(
             push: nodes.push(blow.node, recorded.point, recorded.direction),
             direction: recorded.direction,
         };
+        pulses.push((Arc::clone(&pulse), strike.push.clone()));
         synth.strike(blow.time, id, strike)?;
         let at = pose.rotation * recorded.point + pose.translation;
         let direction = pose.rotation * recorded.direction;
@@ -89,6 +91,8 @@ pub(super) fn blows(
         let times = blow.cracks.iter().flat_map(|crack| &crack.times);
         let apart = times.copied().fold(0.0, f64::max);
         synth.hush(blow.time + apart, id)?;
+        let moving = released::velocities(&body, &pulses, apart);
+        released::released(synth, nodes, cast, blow, &moving, apart)?;
     }
     Ok(())
 }

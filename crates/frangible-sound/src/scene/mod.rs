@@ -7,6 +7,7 @@
 mod blows;
 mod cast;
 mod nodes;
+mod released;
 mod slides;
 mod touches;
 mod touching;

@@ -139,6 +139,14 @@ impl Nodes {
         }
     }
 
+    /// Motion of a body at a point of it, m, as the sum of its modes with these weights; zero without modes of its own.
+    pub(super) fn motion(&self, node: usize, point: Vec3, weights: &[f32]) -> Vec3 {
+        match self.ready.get(&node).map(|ready| &ready.shape) {
+            Some(Shape::Asset(asset)) => asset.motion(point, weights),
+            Some(Shape::Plate(_) | Shape::Ball) | None => Vec3::ZERO,
+        }
+    }
+
     /// The push of a force of no known direction: the root of the sum of the squares of three directions.
     pub(super) fn push_any(&self, node: usize, point: Vec3) -> Vec<f32> {
         let pushes = Vec3::AXES.map(|axis| self.push(node, point, axis));

@@ -1,7 +1,7 @@
 //! Output of the scene's sound.
 
 use frangible_scenes::LiveSound;
-use frangible_sound::{Limiter, Outlet};
+use frangible_sound::{Leveller, Outlet, SoundError};
 
 use super::Session;
 use crate::error::ViewError;
@@ -11,14 +11,28 @@ use crate::tape::Tape;
 pub(super) struct Heard {
     outlet: Outlet,
     /// None without a scene.
-    ear: Option<LiveSound>,
-    limiter: Limiter,
+    ear: Option<Ear>,
     tape: Tape,
     volume: f64,
     muted: bool,
-    /// Pressures of the last step in simulated time, Pa, and its samples at the loudspeaker.
+    /// Pressures of the last step in simulated time, Pa, their levelled samples, and those at the loudspeaker.
     pressures: Vec<f32>,
+    levelled: Vec<f32>,
     samples: Vec<f32>,
+}
+
+/// Hears a scene, and levels what it hears.
+struct Ear {
+    live: LiveSound,
+    leveller: Leveller,
+}
+
+impl Ear {
+    fn new(live: LiveSound) -> Result<Self, SoundError> {
+        let config = live.config();
+        let leveller = Leveller::new(config.rate, config.listener.channels, Leveller::LIVE)?;
+        Ok(Self { live, leveller })
+    }
 }
 
 impl Session {
@@ -27,11 +41,11 @@ impl Session {
         self.heard = Some(Heard {
             outlet,
             ear: None,
-            limiter: Limiter::default(),
             tape: Tape::default(),
             volume: 1.0,
             muted: false,
             pressures: Vec::new(),
+            levelled: Vec::new(),
             samples: Vec::new(),
         });
         self.listen_anew();
@@ -46,7 +60,7 @@ impl Session {
         heard.tape = Tape::default();
         heard.ear = None;
         let Some(scene) = &self.scene else { return };
-        match LiveSound::new(live, scene, &self.home) {
+        match LiveSound::new(live, scene, &self.home).and_then(Ear::new) {
             Ok(ear) => heard.ear = Some(ear),
             Err(error) => self.complain(&error.into()),
         }
@@ -59,20 +73,23 @@ impl Session {
         };
         let Some(ear) = &mut heard.ear else { return };
         heard.pressures.clear();
+        heard.levelled.clear();
         heard.samples.clear();
-        let result = ear.step(live, &mut heard.pressures);
-        let step = self.slow_motion * ear.config().rate / heard.outlet.rate();
+        let result = ear.live.step(live, &mut heard.pressures);
+        let levelled = ear.leveller.level(&heard.pressures, &mut heard.levelled);
+        let step = self.slow_motion * ear.live.config().rate / heard.outlet.rate();
         let volume = if heard.muted {
             0.0
         } else {
             heard.volume as f32
         };
-        for pressure in &mut heard.pressures {
-            *pressure = volume * heard.limiter.sample(*pressure);
-        }
-        heard.tape.read(&heard.pressures, step, &mut heard.samples);
+        heard
+            .levelled
+            .iter_mut()
+            .for_each(|sample| *sample *= volume);
+        heard.tape.read(&heard.levelled, step, &mut heard.samples);
         heard.outlet.put(&heard.samples);
-        if let Err(error) = result {
+        if let Err(error) = result.and(levelled) {
             heard.ear = None;
             self.complain(&error.into());
         }

@@ -1,0 +1,143 @@
+//! Scenes at their level: true to scale, and by loudness.
+
+use std::error::Error;
+
+use frangible_scenes::{bake, play, scene, sound, sound_config};
+use frangible_sound::{Loudness, SPEED_OF_SOUND, TARGET};
+
+use crate::plot::{Axis, Chart, Marker, Series};
+
+/// The scenes.
+const NAMES: [&str; 5] = ["glass", "plate", "pane", "brick", "bottle"];
+
+/// Time over which a level is taken, s.
+const SHORT: f64 = 0.02;
+
+/// Time after a break from which touches are landings, s.
+const LANDS: f64 = 0.15;
+
+/// Levels below this are drawn as this, dB.
+const LOWEST: f64 = -100.0;
+
+/// A scene at two levels: true to scale, as loud as fits, and by loudness.
+#[derive(Clone, Debug)]
+pub struct HeardLevel {
+    /// Its name.
+    pub name: String,
+    /// Levels of 20 ms, dB over full scale.
+    pub levels: [Vec<f64>; 2],
+    /// Loudness.
+    pub loudness: [Loudness; 2],
+    /// Full scale, the pressure of a sample of 1, as a sound pressure level, dB over 20 µPa.
+    pub full_scale: [f64; 2],
+    /// What the leveller took from the loudest and gave to the softest samples, dB.
+    pub changed: [f64; 2],
+    /// The intervals of 20 ms in which a landing begins.
+    pub landings: Vec<usize>,
+    /// Level of the loudest 20 ms of the crash, dB over full scale.
+    pub crash: [f64; 2],
+}
+
+/// All of them.
+pub(super) fn all() -> Result<Vec<HeardLevel>, Box<dyn Error>> {
+    NAMES.into_iter().map(HeardLevel::compute).collect()
+}
+
+impl HeardLevel {
+    fn compute(name: &str) -> Result<Self, Box<dyn Error>> {
+        let scene = scene(name)?;
+        let baked = bake(&scene, &mut |_| {})?;
+        let run = play(&scene, &baked, &mut |_| {})?;
+        let config = sound_config(&run, &scene);
+        let sounded = sound(&run, &scene, &config)?;
+        let (channels, rate) = (config.listener.channels, config.rate);
+        let loudest = sounded.loudest();
+        let plain: Vec<f32> = (sounded.samples.iter())
+            .map(|p| p / loudest as f32)
+            .collect();
+        let levelled = sounded.levelled(TARGET)?;
+        let levels = [&plain, &levelled.samples].map(|samples| envelope(samples, channels, rate));
+        let broke = run.recording.blows.iter().find(|b| !b.pieces.is_empty());
+        let broke = broke.map_or(0.0, |blow| blow.time);
+        let interval = |time: f64| (time / SHORT) as usize;
+        let arrives = run.recording.touches.iter().map(|touch| {
+            let way = (touch.point.as_dvec3() - config.listener.place).length();
+            (touch.time, interval(touch.time + way / SPEED_OF_SOUND))
+        });
+        let count = levels[0].len();
+        let mut landings: Vec<usize> = arrives
+            .filter(|(time, at)| *time > broke + LANDS && *at < count)
+            .map(|(_, at)| at)
+            .collect();
+        landings.sort_unstable();
+        landings.dedup();
+        let crash = [interval(broke), interval(broke + 0.1)].map(|at| at.min(count));
+        let crash = [0, 1].map(|k| {
+            let crash = levels[k][crash[0]..crash[1]].iter();
+            crash.copied().fold(LOWEST, f64::max)
+        });
+        Ok(Self {
+            name: name.into(),
+            levels,
+            loudness: [Loudness::of(&plain, channels, rate)?, levelled.loudness],
+            full_scale: [loudest, levelled.full_scale.unwrap_or(loudest)]
+                .map(|pressure| 20.0 * (pressure / 2e-5).log10()),
+            changed: [levelled.leveller.reduction, levelled.leveller.raised],
+            landings,
+            crash,
+        })
+    }
+
+    /// Levels of the landings below the crash, dB: the loudest, the one in the middle, and that which a tenth is softer than.
+    pub(super) fn below(&self, which: usize) -> [f64; 3] {
+        let level = |&at: &usize| self.crash[which] - self.levels[which][at];
+        let mut below: Vec<f64> = self.landings.iter().map(level).collect();
+        below.sort_by(f64::total_cmp);
+        [0.0, 0.5, 0.9].map(|share| {
+            let at = (share * below.len() as f64) as usize;
+            below.get(at).copied().unwrap_or(f64::NAN)
+        })
+    }
+
+    /// The chart of both levels over time.
+    pub(super) fn chart(&self) -> Chart {
+        let point = |which: usize, at: usize| {
+            let level = self.levels[which][at].max(LOWEST);
+            (SHORT * (at as f64 + 0.5), level)
+        };
+        let mut series = Vec::new();
+        for (which, name) in ["by loudness", "true to scale"].into_iter().enumerate() {
+            let which = 1 - which;
+            series.push(Series {
+                name: format!("landings, {name}"),
+                points: (self.landings.iter()).map(|&at| point(which, at)).collect(),
+                marker: [Marker::Square, Marker::Disc][which],
+                line: false,
+            });
+            series.push(Series {
+                name: name.into(),
+                points: (0..self.levels[which].len())
+                    .map(|at| point(which, at))
+                    .collect(),
+                marker: Marker::Nothing,
+                line: true,
+            });
+        }
+        Chart {
+            title: self.name.clone(),
+            x: Axis::linear("time, s"),
+            y: Axis::linear("level of 20 ms, dB over full scale").including(0.0),
+            series,
+        }
+    }
+}
+
+/// Levels of intervals of 20 ms, dB over full scale.
+fn envelope(samples: &[f32], channels: usize, rate: f64) -> Vec<f64> {
+    let count = channels * (SHORT * rate) as usize;
+    let level = |part: &[f32]| {
+        let power: f64 = part.iter().map(|&s| f64::from(s).powi(2)).sum();
+        (10.0 * (power / count as f64).max(1e-30).log10()).max(LOWEST)
+    };
+    samples.chunks(count).map(level).collect()
+}
