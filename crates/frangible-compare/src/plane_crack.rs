@@ -6,7 +6,7 @@ use frangible::Body;
 use frangible::glam::Vec3;
 use frangible::internals::TetMesh;
 use frangible::internals::mesh::NO_NEIGHBOUR;
-use frangible::internals::stress::share_left;
+use frangible::internals::stress::{share_beside, share_left};
 
 use crate::moment::Moment;
 
@@ -26,11 +26,13 @@ pub(crate) struct PlaneCrack {
 }
 
 impl PlaneCrack {
-    /// Share of the tension across it that it leaves at a point, for this β of [`share_left`].
+    /// Share of the tension across it that it leaves at a point, for this β of [`share_beside`].
     pub(crate) fn share_left(&self, p: Vec3, beta: f32) -> f32 {
         let to_sites = self.sites.iter().map(|&site| site - p);
         let nearest = to_sites.min_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
-        nearest.map_or(1.0, |to| share_left(to, self.normal, self.extent, beta))
+        nearest.map_or(1.0, |to| {
+            share_left(to, self.normal, |y| share_beside(y, self.extent, beta))
+        })
     }
 }
 

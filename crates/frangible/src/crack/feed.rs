@@ -12,9 +12,11 @@ use std::f64::consts::PI;
 use glam::Vec3;
 
 use super::felt::Felt;
+use super::release::once;
 use super::single::{Crack, ElementCut, Front};
 use super::system::{CrackSystem, ELSEWHERE, UNCUT};
 use crate::mesh::{FACES, NO_NEIGHBOUR};
+use crate::stress::Symmetric3;
 use crate::tips::crossing_length;
 
 /// Depth over A/L: 2.55 times the radius of a penny.
@@ -82,15 +84,16 @@ impl CrackSystem<'_> {
         crack.spent + cost >= crack.available + f64::from(front.refused) * gain
     }
 
-    /// Energy that an area, m², of a front sets free, J `[G12 Eq. 12]`. `normal`: unit normal of the crack there, at
-    /// this place, m.
+    /// Energy that an area, m², of a front sets free, J `[G12 Eq. 12]`; where it is no more than `enough`, a bound. `normal`: unit normal of the
+    /// crack there, at this place, m.
+    ///
+    /// In a solid other cracks release the front. In a wall they release only weak points and forks.
     pub(super) fn gain(
         &self,
         front: &Front,
         felt: &Felt,
-        normal: Vec3,
-        at: Vec3,
-        area: f32,
+        (normal, at, area): (Vec3, Vec3, f32),
+        enough: f64,
     ) -> f64 {
         let material = &self.asset.material;
         if self.config.is_paper() {
@@ -106,7 +109,28 @@ impl CrackSystem<'_> {
             }
             None => self.depth(crack, front.tet, felt) * felt.energy_across(normal, modulus),
         };
-        f64::from(area) * per_area.max(self.section_feed(front, at, normal))
+        let by_section = self.section_feed(front, at, normal);
+        let whole = f64::from(area) * per_area.max(by_section);
+        if felt.wall.is_some() || per_area <= by_section || whole <= enough {
+            return whole;
+        }
+        // Both are squares of the tension across.
+        let across = |stress: &Symmetric3| f64::from(normal.dot(stress.times(normal)));
+        let before = across(&felt.state.stress);
+        let gain = |left: &Symmetric3| {
+            let left = (across(left) / before).max(0.0);
+            f64::from(area) * (per_area * left * left).max(by_section)
+        };
+        let place = (front.crack, at);
+        let left = once(
+            self,
+            place,
+            felt.state.stress,
+            None,
+            front.arrival,
+            |left| gain(left) > enough,
+        );
+        left.map_or(f64::from(area) * by_section, |left| gain(&left))
     }
 
     /// Keeps the length of the live fronts when a crack cuts a tetrahedron: its own front moves on, and that of a crack which it meets ends.

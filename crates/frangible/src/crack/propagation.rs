@@ -70,17 +70,18 @@ fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
     if system.fractured_by[n] == front.crack {
         return;
     }
-    let mut crossing = Crossing::of(system, &front);
     if system.fractured_by[n] != UNCUT {
         system.meet(&front, false);
-        if let Some(beyond) = passes(system, field, &front, &crossing.from) {
-            start(system, field, front.crack, &crossing.from, &beyond);
+        let from = system.cracks[front.crack as usize].elements[front.from as usize];
+        if let Some(beyond) = passes(system, field, &front, &from) {
+            start(system, field, front.crack, &from, &beyond);
         }
         return;
     }
     if system.rests(front.tet, front.arrival) {
         return;
     }
+    let mut crossing = Crossing::of(system, &front);
     // Stress is costly to find: a front that lacks energy waits without it. A turn would hardly change its area.
     let (straight, place) = straight_on(system, &front, &crossing);
     let area = system.edge * system.edge;
@@ -142,6 +143,8 @@ struct Crossing {
     x: [Vec3; 4],
     /// s at the corners, m; a steered crack does not know the fourth yet.
     values: [f32; 4],
+    /// Roughness of a steered crack at the corners, m.
+    rough: [f32; 4],
     /// The corner that the shared face does not have.
     fourth: usize,
 }
@@ -161,19 +164,37 @@ impl Crossing {
             }
         }
         let x = mesh.corners(front.tet as usize);
-        if system.config.is_paper() {
+        let rough = if system.config.is_paper() {
             values[fourth] = crack.frame.planar(x[fourth]);
-        }
+            [0.0; 4]
+        } else {
+            x.map(|x| crack.frame.roughness(x))
+        };
         Self {
             from,
             x,
             values,
+            rough,
             fourth,
         }
     }
-}
 
-impl Crossing {
+    /// s of the smooth surface at the corners, m.
+    fn smooth(&self) -> [f32; 4] {
+        std::array::from_fn(|k| self.values[k] + self.rough[k])
+    }
+
+    /// s at the fourth corner if the crack has this direction, m: the mean of the extrapolations from the other three.
+    fn predicted(&self, direction: Vec3) -> f32 {
+        let Self { x, fourth, .. } = *self;
+        let smooth = self.smooth();
+        let sum: f32 = (0..4)
+            .filter(|&i| i != fourth)
+            .map(|i| smooth[i] + (x[fourth] - x[i]).dot(direction))
+            .sum();
+        sum / 3.0 - self.rough[fourth]
+    }
+
     /// The tetrahedron ahead, as the front enters it.
     fn entered(&self, front: &Front, cut: &ElementCut) -> Entered {
         let mut source = front.source;
@@ -199,12 +220,7 @@ fn steers(
     let Some(turning_length) = system.config.turning_length() else {
         return Some((crack.frame.normal, Vec3::ZERO));
     };
-    let Crossing {
-        from,
-        x,
-        values,
-        fourth,
-    } = crossing;
+    let from = crossing.from;
     let mesh = &system.asset.fracture;
     let place = system.centroids[from.tet as usize];
     let length = system.centroids[front.tet as usize].distance(place);
@@ -227,18 +243,16 @@ fn steers(
         reach: KINK_REACH * system.edge,
     };
     let toward = system.resistance.toughness.kinked(mesh, tip);
-    let rough = x.map(|x| crack.frame.roughness(x));
-    let mut smooth: [f32; 4] = std::array::from_fn(|k| values[k] + rough[k]);
-    let predicted = extrapolated(x, &smooth, *fourth, toward) - rough[*fourth];
-    let node = mesh.tets[front.tet as usize][*fourth];
+    let predicted = crossing.predicted(toward);
+    let node = mesh.tets[front.tet as usize][crossing.fourth];
     let known = system.values.get(front.crack, node);
     if known.is_some_and(|known| (known - predicted).abs() > SELF_MEETING * system.edge) {
         return None;
     }
-    values[*fourth] = known.unwrap_or(predicted);
+    crossing.values[crossing.fourth] = known.unwrap_or(predicted);
     // The roughness turns the surface, but not the way of the crack.
-    smooth[*fourth] = values[*fourth] + rough[*fourth];
-    Some((gradient(x, &smooth).unwrap_or(toward), opens))
+    let direction = gradient(&crossing.x, &crossing.smooth());
+    Some((direction.unwrap_or(toward), opens))
 }
 
 /// Result of a crack's energy test for a tetrahedron.
@@ -262,7 +276,8 @@ fn pays(
 ) -> Payment {
     let crack = &system.cracks[front.crack as usize];
     let cost = system.cost(front.tet, area);
-    let gain = system.gain(front, felt, cut.direction, at, area);
+    let enough = crack.spent + cost - crack.available;
+    let gain = system.gain(front, felt, (cut.direction, at, area), enough);
     if system.ledger.never_has(cost) {
         Payment::Refused
     } else if !system.ledger.has(cost) {
@@ -300,10 +315,7 @@ fn upright(direction: Vec3, normal: Vec3) -> Vec3 {
 /// Area of a crack in the tetrahedron ahead if it does not turn there, m², and the middle of what it cuts, m.
 fn straight_on(system: &CrackSystem, front: &Front, crossing: &Crossing) -> (f32, Vec3) {
     let Crossing {
-        from,
-        x,
-        values,
-        fourth,
+        from, x, values, ..
     } = crossing;
     let mut values = *values;
     if system.config.is_paper() {
@@ -311,21 +323,9 @@ fn straight_on(system: &CrackSystem, front: &Front, crossing: &Crossing) -> (f32
         let centroid = system.centroids[front.tet as usize];
         return (system.area(x, &values, from.direction), centroid);
     }
-    let frame = &system.cracks[front.crack as usize].frame;
-    let rough = x.map(|x| frame.roughness(x));
-    let smooth = std::array::from_fn(|k| values[k] + rough[k]);
-    values[*fourth] = extrapolated(x, &smooth, *fourth, from.direction) - rough[*fourth];
+    values[crossing.fourth] = crossing.predicted(from.direction);
     let area = system.area(x, &values, from.direction);
     (area, crossing_middle(x, &values))
-}
-
-/// s of the smooth surface at the fourth node: mean of the extrapolations from the three known ones.
-fn extrapolated(x: &[Vec3; 4], smooth: &[f32; 4], fourth: usize, direction: Vec3) -> f32 {
-    let sum: f32 = (0..4)
-        .filter(|&i| i != fourth)
-        .map(|i| smooth[i] + (x[fourth] - x[i]).dot(direction))
-        .sum();
-    sum / 3.0
 }
 
 /// Unit ∇s of the linear s in a tetrahedron; `None` where s does not vary.

@@ -25,8 +25,7 @@ use super::field::StressField;
 use super::suspects::Suspect;
 use super::system::CrackSystem;
 use crate::stress::{
-    BATCH, MARGIN, Released, STRETCHED, STRIDE, Steps, StressLanes, Symmetric3, bent, lane,
-    largest_eigenvalue,
+    BATCH, MARGIN, Released, STRIDE, Steps, StressLanes, Symmetric3, bent, lane, largest_eigenvalue,
 };
 
 /// Rounding of what is left, relative to the whole stress.
@@ -182,10 +181,8 @@ impl Releases {
             self.points.resize(place + 1, None);
         }
         let point = self.points[place].get_or_insert_with(|| {
-            let beta = match field.wall(suspect.tet as usize) {
-                Some(_) => bent(system.asset.material.poisson_ratio),
-                None => STRETCHED,
-            };
+            let wall = field.wall(suspect.tet as usize);
+            let beta = wall.map(|_| bent(system.asset.material.poisson_ratio));
             Point {
                 memory: Memory::new(field.weak_position(suspect.tet as usize), beta),
                 held_in: None,
@@ -209,10 +206,7 @@ pub(super) fn once(
     now: f64,
     enough: impl Fn(&Symmetric3) -> bool,
 ) -> Option<Symmetric3> {
-    let beta = match &opposite {
-        Some(_) => bent(system.asset.material.poisson_ratio),
-        None => STRETCHED,
-    };
+    let beta = opposite.map(|_| bent(system.asset.material.poisson_ratio));
     let mut memory = Memory::new(place, beta);
     let mut left = stress;
     for ring in Ring::ALL {
@@ -252,7 +246,7 @@ widest! {
             opposites.clear();
         }
         // Only in a wall the two shares differ.
-        if point.memory.beta != STRETCHED
+        if point.memory.bent.is_some()
             && point.opposite.is_none_or(|(of, _)| of != present)
             && let Some(opposite) =
                 field.opposite_weak_point(suspect.place as usize, suspect.tet as usize)

@@ -70,7 +70,7 @@ impl CrackSystem<'_> {
     /// Gives a crack that has become large its section: one that there is already, or its own.
     fn find_first(&mut self, id: usize, field: &StressField) {
         let own = &self.cracks[id];
-        let area = own.area + own.tip.map_or(0.0, |tip| tip.area());
+        let area = own.whole_area();
         let room = f64::from(self.thickness[own.start as usize]);
         if area <= own.unsought.max(LARGE * room * room) {
             return;

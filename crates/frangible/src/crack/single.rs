@@ -72,6 +72,17 @@ impl Crack {
         }
     }
 
+    /// Area with that from before this impact, m².
+    pub(super) fn whole_area(&self) -> f64 {
+        self.area + self.tip.map_or(0.0, |tip| tip.area())
+    }
+
+    /// Half-width, m, of an ellipse with its area and this half-length, m; of half an ellipse at a free surface.
+    pub(super) fn half_width(&self, half_length: f32) -> f32 {
+        let part = if self.at_surface { 2.0 } else { 1.0 };
+        part * self.whole_area() as f32 / (std::f32::consts::PI * half_length)
+    }
+
     /// Its cuts that are not settled.
     pub(super) fn unsettled(&self) -> &[ElementCut] {
         &self.elements[self.settled.min(self.elements.len())..]

@@ -15,7 +15,7 @@
 //! - Few of the evaluated points come near their strength. A few shapes (`coarse.rs`) are therefore evaluated first in place of all modes, with a
 //!   bound of the remainder, and all modes only for points that this does not decide.
 //!
-//! The release beside a crack follows from its length (`shadow.rs`), by the closed forms of a crack in a stretched and in a bent wall.
+//! The release beside a crack follows from its length (`shadow.rs`), by the closed forms of a crack in a solid, in a stretched wall and in a bent one.
 
 mod batch;
 mod cluster_rows;
@@ -44,7 +44,7 @@ pub(crate) use principal::{MARGIN, limit, perpendicular_axes};
 pub use principal::{largest_eigenvalue, largest_eigenvalue_bound, principal_axes};
 pub(crate) use rows::{RowPoint, Rows, Sample, of_shape};
 pub(crate) use shadow::{Released, Shadow};
-pub use shadow::{STRETCHED, bent, share_beside, share_left};
+pub use shadow::{STRETCHED, bent, share_beside, share_in_solid, share_left};
 pub(crate) use shape::Shape;
 pub(crate) use sizes::Sizes;
 pub(crate) use skin::Search;

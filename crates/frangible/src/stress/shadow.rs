@@ -2,8 +2,12 @@
 //!
 //! Beside the middle of a crack of half-length a in an infinite wall or solid, at distance y, the share
 //! `w = y (y² + (1 + β) a²) / (y² + a²)^1.5` of the tension across it is left:
-//! - β = −1 where the wall or solid is stretched, `y³ / (y² + a²)^1.5`: Westergaard's field (J. Appl. Mech. 6, A49, 1939);
+//! - β = −1 where the wall is stretched, `y³ / (y² + a²)^1.5`: Westergaard's field (J. Appl. Mech. 6, A49, 1939);
 //! - β = (1 − ν) / (3 + ν) where a wall is bent: a crack through it, its edges free in the sense of Kirchhoff's theory of plates.
+//!
+//! A solid is released less far, since a crack in it ends on all sides. Over the middle of a penny of radius a
+//! `w = 1 − (2/π) (atan(a/y) − ay/(y² + a²) + 2a³y/(y² + a²)²)` is left (I. N. Sneddon, Proc. R. Soc. A 187 (1946) 229). A crack that is longer than wide
+//! lies between a penny and an endless crack of its half-width.
 //!
 //! w is below 1 and falls as the crack grows. Ahead of the tips nothing is taken: with d the vector to the nearest place of the crack and n its
 //! normal there the share is `w' = 1 − (1 − w) (n·d / |d|)²`.
@@ -19,13 +23,15 @@
 //! whole: one Q, for which the bound holds. Where one part is zero, or the two shares are equal, this is exactly the release of
 //! each part for itself. The same Q goes over both parts, so that they still add up to the whole when the next crack comes.
 
+use std::f32::consts::FRAC_2_PI;
+
 use glam::{Mat3, Vec3};
 
 use super::lanes::StressLanes;
 use super::tensor::{Real, Symmetric3, times};
 use super::wide::{Wide, narrow, wide};
 
-/// β where a wall or a solid is stretched.
+/// β where a wall is stretched.
 pub const STRETCHED: f32 = -1.0;
 
 /// β where a wall is bent.
@@ -46,15 +52,30 @@ pub fn share_beside(distance: f32, half_length: f32, beta: f32) -> f32 {
     share.min(1.0)
 }
 
-/// Share w' that is left at a point: `to_crack` from it to the nearest place of the crack, m, `normal` the crack's unit normal there.
+/// Share w of the tension across a crack in a solid of this half-width and half-length, m, that is left at a distance, m, beside its middle.
 #[must_use]
-pub fn share_left(to_crack: Vec3, normal: Vec3, half_length: f32, beta: f32) -> f32 {
+pub fn share_in_solid(distance: f32, half_width: f32, half_length: f32) -> f32 {
+    let (y, a) = (distance, half_width.min(half_length));
+    let squared = y * y + a * a;
+    if squared <= f32::MIN_POSITIVE {
+        return 0.0;
+    }
+    let (layer, volume) = (a * y / squared, 2.0 * a * a * a * y / (squared * squared));
+    let penny = 1.0 - FRAC_2_PI * (libm::atan2f(a, y) - layer + volume);
+    let endless = share_beside(y, a, STRETCHED);
+    (penny + (endless - penny) * (1.0 - a / half_length)).clamp(0.0, 1.0)
+}
+
+/// Share w' that is left at a point: `to_crack` from it to the nearest place of the crack, m, `normal` the crack's unit normal there, and `share` the
+/// share w beside its middle at this distance, m.
+#[must_use]
+pub fn share_left(to_crack: Vec3, normal: Vec3, share: impl Fn(f32) -> f32) -> f32 {
     let squared = to_crack.length_squared();
     if squared <= f32::MIN_POSITIVE {
         return 0.0;
     }
     let beside = (normal.dot(to_crack).powi(2) / squared).min(1.0);
-    1.0 - (1.0 - share_beside(squared.sqrt(), half_length, beta)) * beside
+    1.0 - (1.0 - share(squared.sqrt())) * beside
 }
 
 /// Shares of the stress that one crack leaves at a point.

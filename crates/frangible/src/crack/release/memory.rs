@@ -6,7 +6,7 @@ use super::super::extents::{BLOCK, Extents, FAINT, Ring, Seen};
 use super::super::single::Crack;
 use super::super::sites::Site;
 use super::super::system::CrackSystem;
-use crate::stress::{STRETCHED, Shadow, length, share_left};
+use crate::stress::{STRETCHED, Shadow, length, share_beside, share_in_solid, share_left};
 
 /// Smallest fall of a share that is noted.
 const LEAST: f32 = 5e-3;
@@ -29,9 +29,10 @@ impl<'a> Sources<'a> {
         }
     }
 
-    /// Shares of the stress that a crack leaves at a point at time `now`, s; none if it takes nothing to speak of. `beta`: that of bending.
+    /// Shares of the stress that a crack leaves at a point at time `now`, s; none if it takes nothing to speak of. `bent`: β of bending in a wall,
+    /// none in a solid.
     #[inline(always)]
-    fn cast(&self, crack: usize, point: Vec3, beta: f32, now: f64) -> Option<Shadow> {
+    fn cast(&self, crack: usize, point: Vec3, bent: Option<f32>, now: f64) -> Option<Shadow> {
         let site = self.cracks[crack]
             .sites
             .nearest_heard(point, now, self.wave)?;
@@ -42,16 +43,21 @@ impl<'a> Sources<'a> {
         }
         let to_crack = nearest_place(site, point, radius);
         let half_length = self.extents.half_length(crack);
-        let share = |beta| share_left(to_crack, site.direction, half_length, beta);
-        let stretched = share(STRETCHED);
+        let normal = site.direction;
+        let in_wall = |beta| share_left(to_crack, normal, |y| share_beside(y, half_length, beta));
+        let (stretched, bent) = match bent {
+            Some(beta) => (in_wall(STRETCHED), in_wall(beta)),
+            None => {
+                let half_width = self.cracks[crack].half_width(half_length);
+                let beside = |y| share_in_solid(y, half_width, half_length);
+                let share = share_left(to_crack, normal, beside);
+                (share, share)
+            }
+        };
         let shadow = Shadow {
-            normal: site.direction,
+            normal,
             stretched,
-            bent: if beta == STRETCHED {
-                stretched
-            } else {
-                share(beta)
-            },
+            bent,
         };
         (shadow.bent.min(shadow.stretched) <= 1.0 - FAINT).then_some(shadow)
     }
@@ -61,8 +67,8 @@ impl<'a> Sources<'a> {
 #[derive(Clone, Debug)]
 pub(super) struct Memory {
     place: Vec3,
-    /// β of the stress that bends; where nothing does, that of the stress that stretches.
-    pub(super) beta: f32,
+    /// β of the stress that bends, in a wall.
+    pub(super) bent: Option<f32>,
     /// Shares that each crack has left, by the crack's number, rising; cracks that have taken nothing are left out.
     shadows: Vec<(u32, Shadow)>,
     /// The last look at each ring.
@@ -70,11 +76,11 @@ pub(super) struct Memory {
 }
 
 impl Memory {
-    /// The memory of a point at this place that no crack has released.
-    pub(super) fn new(place: Vec3, beta: f32) -> Self {
+    /// The memory of a point at this place that no crack has released. `bent`: β of the stress that bends, in a wall.
+    pub(super) fn new(place: Vec3, bent: Option<f32>) -> Self {
         Self {
             place,
-            beta,
+            bent,
             shadows: Vec::new(),
             seen: [Seen::NEVER; 2],
         }
@@ -115,7 +121,7 @@ widest! {
     ) -> bool {
         let Memory {
             place,
-            beta,
+            bent,
             shadows,
             seen,
         } = memory;
@@ -134,7 +140,7 @@ widest! {
                 if but == Some(number) {
                     continue;
                 }
-                let Some(new) = sources.cast(crack, *place, *beta, now) else {
+                let Some(new) = sources.cast(crack, *place, *bent, now) else {
                     continue;
                 };
                 i += shadows[i..].partition_point(|(of, _)| *of < number);

@@ -71,16 +71,50 @@ fn shares_lie_between_none_and_all_and_fall_as_the_crack_grows() {
     }
 }
 
+/// Tension across a penny of unit radius in a solid under unit tension, at this height over its middle: σ_zz = 1 + f − z f', where f is harmonic and
+/// −1 on the penny, found from the potential of a double layer √(1 − r²) by quadrature and difference quotients.
+fn penny(z: f64) -> f64 {
+    const RINGS: u32 = 200_000;
+    let potential = |z: f64| -> f64 {
+        let rings = (0..RINGS).map(|k| {
+            // r = sin θ, for which √(1 − r²) dr is smooth.
+            let theta = (f64::from(k) + 0.5) / f64::from(RINGS) * std::f64::consts::FRAC_PI_2;
+            let (r, c) = theta.sin_cos();
+            c * z * r / (r * r + z * z).powf(1.5) * c
+        });
+        rings.sum::<f64>() * std::f64::consts::FRAC_PI_2 / f64::from(RINGS)
+    };
+    let h = 1e-2;
+    let first = |z: f64| (potential(z + h) - potential(z - h)) / (2.0 * h);
+    let second = (potential(z + h) - 2.0 * potential(z) + potential(z - h)) / (h * h);
+    2.0 / std::f64::consts::PI * (first(z) - z * second) + 1.0
+}
+
+#[test]
+fn the_share_beside_a_penny_is_that_of_its_double_layer_and_a_long_crack_is_endless() {
+    for y in [0.5_f32, 1.0, 2.0] {
+        let ours = share_in_solid(3.0 * y, 3.0, 3.0);
+        let theirs = penny(f64::from(y)) as f32;
+        assert!((ours - theirs).abs() < 2e-3, "{y}: {ours} {theirs}");
+        let endless = share_beside(3.0 * y, 3.0, STRETCHED);
+        assert!((share_in_solid(3.0 * y, 3.0, 3e6) - endless).abs() < 1e-5);
+        assert!(endless < ours);
+    }
+    assert_eq!(share_in_solid(0.0, 0.01, 0.01), 0.0);
+    assert_eq!(share_in_solid(0.01, 0.0, 0.01), 1.0);
+    assert_eq!(share_in_solid(0.0, 0.0, 0.01), 0.0);
+}
+
 #[test]
 fn nothing_is_taken_ahead_of_the_tips_and_the_square_of_the_cosine_between() {
     let beta = bent(0.25);
     for distance in [1e-4, 0.01, 3.0] {
         let left = |angle: f32| {
             let to_crack = Vec3::new(angle.sin(), angle.cos(), 0.0) * distance;
-            share_left(to_crack, Vec3::Y, 0.02, beta)
+            share_left(to_crack, Vec3::Y, |y| share_beside(y, 0.02, beta))
         };
         let beside = share_beside(distance, 0.02, beta);
-        let along = share_left(Vec3::X * distance, Vec3::Y, 0.02, beta);
+        let along = share_left(Vec3::X * distance, Vec3::Y, |y| share_beside(y, 0.02, beta));
         assert_eq!(along, 1.0);
         assert!((left(0.0) - beside).abs() < 1e-6);
         let half = left(std::f32::consts::FRAC_PI_4);
