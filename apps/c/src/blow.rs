@@ -141,7 +141,7 @@ pub(crate) fn motion(motion: &frangible_motion, name: &str) -> Result<[DVec3; 2]
 
 fn script(given: &frangible_contact) -> Contact {
     let [point, impulse] = [given.point, given.impulse].map(single);
-    Contact::script(point, impulse, given.duration as f32)
+    Contact::push(point, impulse, given.duration as f32)
 }
 
 fn single(numbers: [f64; 3]) -> Vec3 {
@@ -178,11 +178,10 @@ fn collision(
             SharedMass::of(number, velocity, columns, turn.as_vec3())
         });
     }
-    let mut contact = Contact::new(
+    let mut contact = Contact::strike(
         point.as_vec3(),
         // As it is given, so that its check names what is wrong with it.
         single(given.normal),
-        0.0,
         given.speed as f32,
         striker,
     );
@@ -190,12 +189,11 @@ fn collision(
         vibrate(&mut contact, by, share)?;
     }
     let friction = DVec3::from_array(given.friction);
-    if friction != DVec3::ZERO {
-        // The blow computes the impulse; this one only carries the ratio.
-        contact.impulse = 1.0;
-        contact.friction = (friction - normal * normal.dot(friction)).as_vec3();
+    if friction == DVec3::ZERO {
+        return Ok(contact);
     }
-    Ok(contact)
+    let along = friction - normal * normal.dot(friction);
+    Ok(contact.with_friction(along.as_vec3()))
 }
 
 /// Mass, kg, centre, m, and inverse inertia, 1/(kg·m²), of a striker that moves.

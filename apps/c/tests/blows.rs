@@ -16,7 +16,7 @@ fn a_blow_gives_the_pieces_of_the_core_to_the_bit() {
     let steel = Material::preset("steel").expect("a preset");
     let striker = Striker::ball(&steel, 0.13, 0.0158);
     let point = Vec3::new(0.0, 0.0, 0.003);
-    let contact = Contact::new(point, Vec3::NEG_Z, 0.0, 12.0, striker);
+    let contact = Contact::strike(point, Vec3::NEG_Z, 12.0, striker);
     let outcome = impact(&direct, &[contact], &FractureConfig::default()).expect("a sound blow");
     let Outcome::Broke(fracture) = outcome else {
         panic!("it breaks");

@@ -52,7 +52,7 @@ pub fn contacts(rows: &[f64]) -> Vec<Contact> {
     let contact = |row: &[f64]| {
         let [point, push] = [vec(&row[0..]), vec(&row[3..])];
         if row[15] != 0.0 {
-            return Contact::script(point, vec(&row[12..]), row[15] as f32);
+            return Contact::push(point, vec(&row[12..]), row[15] as f32);
         }
         let mut striker = Striker::rigid();
         striker.inverse_effective_mass = row[7] as f32;
@@ -60,7 +60,7 @@ pub fn contacts(rows: &[f64]) -> Vec<Contact> {
         striker.contact_modulus = row[9] as f32;
         striker.crushing_pressure = row[10] as f32;
         striker.restitution = row[11] as f32;
-        Contact::new(point, push, 0.0, row[6] as f32, striker)
+        Contact::strike(point, push, row[6] as f32, striker)
     };
     rows.chunks_exact(CONTACT).map(contact).collect()
 }

@@ -31,7 +31,7 @@ pub fn lost(scene: &Scene, seed: u64) -> Result<Option<f64>, InputError> {
         inverse_effective_mass: (1.0 / mass) as f32,
         ..Properties::fixed(&striker.material)
     };
-    let contact = Contact::new(place, start.velocity / speed, 0.0, speed, by);
+    let contact = Contact::strike(place, start.velocity / speed, speed, by);
     let normal = contact.normal.as_dvec3();
     let point = place.as_dvec3();
     let inertia = DMat3::from_diagonal(DVec3::splat(0.4 * mass * f64::from(radius).powi(2)));

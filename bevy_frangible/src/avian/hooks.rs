@@ -169,7 +169,7 @@ impl<Inner: SystemParam + 'static> FrangibleHooks<'_, '_, Inner> {
                 };
                 let at = into(to_body * touch.anchors[0]);
                 let toward = into(to_body * touch.normal);
-                Contact::new(at, toward, 0.0, touch.approach, striker)
+                Contact::strike(at, toward, touch.approach, striker)
             })
             .collect();
         if contacts.is_empty() {

@@ -93,7 +93,7 @@ fn measure(subject: &Subject, kept: usize, counts: &[usize]) -> Result<(), Failu
             hit.root - report.centre.as_vec3(),
         );
         for (ball, striker, speed) in balls()? {
-            let contact = Contact::new(at, hit.toward.normalize(), 0.0, speed, striker);
+            let contact = Contact::strike(at, hit.toward.normalize(), speed, striker);
             let body = Breakable::new(asset.clone())?.body(1);
             let touched = modal_load(&body, [&contact]).touches[0].contact.point;
             let places = places(&asset, touched, root);

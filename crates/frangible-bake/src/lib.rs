@@ -16,7 +16,7 @@
 //! let (asset, _) = bake(&spec, &mut |_| {})?; // once per kind of object: tetrahedra and vibration modes
 //! let body = Body::new(asset.into(), 1)?; // seed of its weak points
 //! let stone = Striker::fixed(&Material::preset("stone")?); // what it lands on
-//! let hit = Contact::new(Vec3::new(-0.038, 0.0, 0.068), Vec3::X, 0.8, 5.0, stone); // where, direction, N·s, m/s
+//! let hit = Contact::strike(Vec3::new(-0.038, 0.0, 0.068), Vec3::X, 5.0, stone); // where, direction, m/s, by what
 //! let Outcome::Broke(fracture) = impact(&body, &[hit], &FractureConfig::default())? else { panic!("it held") };
 //! assert!(fracture.fragments.len() > 1);
 //! # Ok::<(), Box<dyn std::error::Error>>(())

@@ -62,10 +62,9 @@ fn config(residual: bool, near_field: Option<PlateTheory>) -> FractureConfig {
 }
 
 fn on_stone(point: Vec3, normal: Vec3, speed: f32) -> Contact {
-    Contact::new(
+    Contact::strike(
         point,
         normal.normalize(),
-        0.0,
         speed,
         Striker::fixed(&Material::preset("stone").unwrap()),
     )
@@ -234,10 +233,9 @@ fn on_curved_walls_few_modes_and_the_near_field_are_many_modes() {
             0.015,
         ),
     ] {
-        let ball = Contact::new(
+        let ball = Contact::strike(
             point,
             normal.normalize(),
-            0.0,
             2.0,
             Striker::ball(&steel, 0.01, 0.0067),
         );
@@ -299,7 +297,7 @@ fn several_contacts_at_once_keep_energy_and_momentum() {
         .iter()
         .zip(places)
         .map(|(&(m, r, v), (point, normal))| {
-            Contact::new(point, normal, 0.0, v, Striker::ball(&steel, m, r))
+            Contact::strike(point, normal, v, Striker::ball(&steel, m, r))
         })
         .collect();
     let missing = |substep: f64| {
@@ -353,13 +351,7 @@ fn no_input_makes_nonsense() {
     let steel = Material::preset("steel").unwrap();
     let top = Vec3::new(0.0, 0.0, 0.001);
     let ball = |mass: f64, radius: f64, speed: f32| {
-        Contact::new(
-            top,
-            Vec3::NEG_Z,
-            0.0,
-            speed,
-            Striker::ball(&steel, mass, radius),
-        )
+        Contact::strike(top, Vec3::NEG_Z, speed, Striker::ball(&steel, mass, radius))
     };
     let tets = around(&body, top, [0.0, 0.2], 97);
     let sound = |name: &str, contacts: &[Contact]| {
@@ -420,7 +412,7 @@ fn no_input_makes_nonsense() {
         ("a point", vec![ball(1e-3, 1e-12, 2.0)], "blow"),
         (
             "a flat rigid striker",
-            vec![Contact::new(top, Vec3::NEG_Z, 0.0, 1.0, rigid(0.1))],
+            vec![Contact::strike(top, Vec3::NEG_Z, 1.0, rigid(0.1))],
             "blow",
         ),
         ("no speed", vec![ball(1.0, 0.01, 0.0)], "nothing"),
@@ -446,27 +438,27 @@ fn no_input_makes_nonsense() {
         ("radius of nothing", vec![ball(1.0, 0.0, 1.0)], "refused"),
         (
             "a script without force",
-            vec![Contact::script(top, Vec3::ZERO, 1e-4)],
+            vec![Contact::push(top, Vec3::ZERO, 1e-4)],
             "refused",
         ),
         (
             "a script",
-            vec![Contact::script(top, Vec3::NEG_Z, 1e-4)],
+            vec![Contact::push(top, Vec3::NEG_Z, 1e-4)],
             "blow",
         ),
         (
             "a short script",
-            vec![Contact::script(top, 1e-3 * Vec3::NEG_Z, 1e-12)],
+            vec![Contact::push(top, 1e-3 * Vec3::NEG_Z, 1e-12)],
             "blow",
         ),
         (
             "a long script",
-            vec![Contact::script(top, Vec3::NEG_Z, 0.05)],
+            vec![Contact::push(top, Vec3::NEG_Z, 0.05)],
             "blow",
         ),
         (
             "a script of endless length",
-            vec![Contact::script(top, Vec3::NEG_Z, f32::INFINITY)],
+            vec![Contact::push(top, Vec3::NEG_Z, f32::INFINITY)],
             "refused",
         ),
         (
@@ -498,13 +490,7 @@ fn a_wall_of_any_thickness_gives_no_nonsense() {
     let asset = baked(Shape::plate(0.1, 0.1, 0.002), material("glass"), 30, 800.0);
     let steel = Material::preset("steel").unwrap();
     let top = Vec3::new(0.0, 0.0, 0.001);
-    let contact = Contact::new(
-        top,
-        Vec3::NEG_Z,
-        0.0,
-        3.0,
-        Striker::ball(&steel, 0.01, 0.01),
-    );
+    let contact = Contact::strike(top, Vec3::NEG_Z, 3.0, Striker::ball(&steel, 0.01, 0.01));
     let with = |change: &dyn Fn(&mut Asset)| {
         let mut asset = asset.clone();
         change(&mut asset);
@@ -573,7 +559,7 @@ fn a_body_that_strikes_at_four_points_brings_its_energy_once() {
                 shared: share.then_some(shared),
                 ..Striker::ball(&Material::preset("steel").unwrap(), 1.0, 0.01)
             };
-            Contact::new(point, normal, 0.0, speed, striker)
+            Contact::strike(point, normal, speed, striker)
         })
     };
     let mut config = FractureConfig::default();

@@ -84,7 +84,7 @@ fn the_modes_that_a_blow_on_a_branch_follows_give_the_stress_that_all_modes_do()
         (Vec3::new(0.0, 0.0, HUB as f32), Vec3::NEG_Z),
     ] {
         let ball = Striker::ball(&steel, 0.006, 0.01);
-        let contact = Contact::new(at, toward.normalize(), 0.0, 4.0, ball);
+        let contact = Contact::strike(at, toward.normalize(), 4.0, ball);
         let [some, truth] = [&chosen, &all].map(|asset| peak(asset, &contact));
         println!(
             "{followed} of {MODES}: {:.4} of {:.1} MPa",

@@ -75,7 +75,7 @@ fn check(body: &Body, fracture: &Fracture, seen: &mut Seen) {
                 .all(|e| own.binary_search(e).is_ok())
         );
         let at = fragment.mesh.positions[0];
-        let hit = Contact::new(at, -at.normalize_or(Vec3::X), 0.3, 6.0, stone());
+        let hit = Contact::strike(at, -at.normalize_or(Vec3::X), 6.0, stone());
         let outcome = impact(
             &piece,
             std::slice::from_ref(&hit),
@@ -92,7 +92,7 @@ fn check(body: &Body, fracture: &Fracture, seen: &mut Seen) {
 fn pieces_of_pieces_tile_them_over_three_generations() {
     let kind = breakable(Shape::drinking_glass(), "glass", 15_000.0, 40);
     let body = kind.body(1);
-    let hit = Contact::new(Vec3::new(-0.038, 0.0, 0.068), Vec3::X, 0.8, 5.0, stone());
+    let hit = Contact::strike(Vec3::new(-0.038, 0.0, 0.068), Vec3::X, 5.0, stone());
     let outcome = impact(
         &body,
         std::slice::from_ref(&hit),
@@ -146,7 +146,7 @@ fn check_walls(piece: &Body, fragment: &Fragment) {
 fn pieces_share_the_parents_mesh_and_weak_points() {
     let kind = breakable(Shape::plate(0.2, 0.2, 0.004), "glass", 12_000.0, 40);
     let body = kind.body(3);
-    let hit = Contact::new(Vec3::new(0.02, 0.01, 0.002), Vec3::NEG_Z, 0.8, 8.0, stone());
+    let hit = Contact::strike(Vec3::new(0.02, 0.01, 0.002), Vec3::NEG_Z, 8.0, stone());
     let outcome = impact(
         &body,
         std::slice::from_ref(&hit),

@@ -53,7 +53,7 @@ fn pieces(body: &Body, of: impl Fn(Vec3) -> usize) -> (Vec<u32>, usize) {
 /// A blow by a small steel ball.
 fn blow(body: &Body, point: Vec3, normal: Vec3, speed: f32) -> Blow {
     let ball = Striker::ball(&Material::preset("steel").unwrap(), 0.02, 0.004);
-    let contact = Contact::new(point, normal, 0.0, speed, ball);
+    let contact = Contact::strike(point, normal, speed, ball);
     Blow::new(body, &[contact], &FractureConfig::default())
         .unwrap()
         .unwrap()
@@ -201,7 +201,7 @@ fn what_is_beside_a_piece_that_has_flown_off_is_met_next() {
     let (labels, count) = pieces(&body, |p| usize::from(p.x > cut));
     let of_ball = |radius: f64| {
         let ball = Striker::ball(&Material::preset("steel").unwrap(), 0.2, radius);
-        let contact = Contact::new(point, Vec3::NEG_Y, 0.0, 2.0, ball);
+        let contact = Contact::strike(point, Vec3::NEG_Y, 2.0, ball);
         let blow = Blow::new(&body, &[contact], &FractureConfig::default());
         let mut blow = blow.unwrap().unwrap();
         blow.part(&body, &labels, count, 1);

@@ -273,7 +273,10 @@ fn hit(asset: &Asset, size: f32) -> Outcome {
         ..Striker::rigid()
     };
     let point = size * Vec3::new(0.01, 0.005, 0.015);
-    let contact = Contact::new(point, -Vec3::Z, 6.0 * size.powi(3), 12.0, striker);
+    let contact = Contact {
+        impulse: 6.0 * size.powi(3),
+        ..Contact::strike(point, -Vec3::Z, 12.0, striker)
+    };
     let body = Body::new(asset.clone().into(), 3).unwrap();
     impact(
         &body,

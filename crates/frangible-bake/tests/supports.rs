@@ -317,7 +317,10 @@ fn a_shelf_that_breaks_leaves_a_piece_in_the_wall() {
     // Impulse of a ball of 2 kg against a body that does not give way.
     let impulse = |speed: f32| 1.5 * 2.0 * speed;
     let point = Vec3::new(0.09, 0.0, 0.005);
-    let hit = |speed| Contact::new(point, Vec3::NEG_Z, impulse(speed), speed, striker.clone());
+    let hit = |speed| Contact {
+        impulse: impulse(speed),
+        ..Contact::strike(point, Vec3::NEG_Z, speed, striker.clone())
+    };
     let config = FractureConfig::default();
     let soft = impact(&body, &[hit(0.05)], &config).unwrap();
     assert!(matches!(soft, Outcome::Held { .. }));

@@ -21,13 +21,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let ball = Striker::ball(&Material::preset("steel")?, 0.1, 0.0145);
     let (middle, down) = (Vec3::new(0.0, 0.0, 0.004), Vec3::NEG_Z);
     for speed in [0.5, 2.0, 8.0] {
-        let blow = [Contact::collision(
-            body.asset(),
-            middle,
-            down,
-            speed,
-            ball.clone(),
-        )];
+        let blow = [Contact::strike(middle, down, speed, ball.clone())];
         if !would_break(&body, &blow, &config)? {
             println!("{speed} m/s: it holds");
         } else if let Outcome::Broke(fracture) = impact(&body, &blow, &config)? {

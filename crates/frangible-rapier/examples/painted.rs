@@ -32,7 +32,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let kind = Breakable::new(Arc::clone(&asset))?.with_fields(fields)?;
         let body = kind.body(1);
         let point = Vector::new(0.0, 0.0, 0.004);
-        let blow = frangible::Contact::collision(&asset, point, Vector::NEG_Z, 8.0, mallet.clone());
+        let blow = frangible::Contact::strike(point, Vector::NEG_Z, 8.0, mallet.clone());
         let outcome = impact(
             &body,
             std::slice::from_ref(&blow),

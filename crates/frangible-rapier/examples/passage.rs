@@ -86,7 +86,7 @@ impl Throw {
             inverse_effective_mass: (1.0 / self.mass) as f32,
             ..Striker::fixed(&self.steel)
         };
-        let contact = Contact::new(place.position, Vec3::NEG_Z, 0.0, self.speed, striker);
+        let contact = Contact::strike(place.position, Vec3::NEG_Z, self.speed, striker);
         let outcome = impact(&body, &[contact], &FractureConfig::default())?;
         let pushes: Vec<(DVec3, DVec3)> = (outcome.report().contacts.iter())
             .map(|c| (c.point.as_dvec3(), c.normal.as_dvec3() * c.impulse))

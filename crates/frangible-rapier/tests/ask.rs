@@ -94,10 +94,9 @@ fn a_body_of_the_world_strikes_as_it_does_in_its_own_frame() {
     let (touches, toward) = (turned * corner, -Vector::X);
     let striker = world.striker(other, touches, toward).unwrap();
     let body = world.breakable(other).unwrap();
-    let mut on_it = Contact::new(
+    let mut on_it = Contact::strike(
         corner,
         turned.rotation.inverse() * Vector::X,
-        0.0,
         0.0,
         Striker::rigid(),
     );

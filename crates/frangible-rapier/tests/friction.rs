@@ -45,7 +45,11 @@ fn what_slides_onto_a_rough_floor_is_rubbed_against_its_slide_and_momentum_balan
             (Vector::new(0.3, -2.0, -3.0), 2.0),
         ] {
             let (event, push, rotation) = landing(model, velocity, turn);
-            let total: Vector = event.contacts.iter().map(|c| rotation * c.push()).sum();
+            let total: Vector = event
+                .contacts
+                .iter()
+                .map(|c| rotation * c.whole_impulse())
+                .sum();
             let friction: Vector = event.contacts.iter().map(|c| rotation * c.friction).sum();
             let slide = Vector::new(velocity.x, 0.0, velocity.z);
             println!("{model:?} {velocity}: pushed {total}, m Δv {push}");

@@ -296,7 +296,10 @@ fn what_is_called_harmless_is_refused_by_the_impact() {
         // The impulse of a blow that is integrated follows from its speed.
         let speed = 1e-4 * 1.6_f32.powi(k);
         let point = Vec3::new(0.05, 0.0, 0.0);
-        let contact = Contact::new(point, -Vec3::X, speed, speed, Striker::rigid());
+        let contact = Contact {
+            impulse: speed,
+            ..Contact::strike(point, -Vec3::X, speed, Striker::rigid())
+        };
         let harmless = is_harmless(&body, std::slice::from_ref(&contact), &config);
         let report = impact(&body, std::slice::from_ref(&contact), &config)
             .unwrap()

@@ -84,7 +84,10 @@ fn change_of_impacts(exact: &Asset, compact: &Asset) -> Result<f64, InputError> 
         };
         let normal = -(b - a).cross(c - a).normalize();
         let impulse = (0.3 * exact.asset().mass.mass) as f32;
-        let contact = Contact::new((a + b + c) / 3.0, normal, impulse, 3.0, striker);
+        let contact = Contact {
+            impulse: impulse,
+            ..Contact::strike((a + b + c) / 3.0, normal, 3.0, striker)
+        };
         let mut config = FractureConfig::default();
         config.culling = false;
         let peak = |body: &Body| -> Result<f64, InputError> {

@@ -152,7 +152,7 @@ impl FirstBreak {
         let (mut point, mut impulse, mut weight) = (Vec3::ZERO, Vec3::ZERO, 0.0);
         for contact in &self.contacts {
             point += contact.point * contact.impulse;
-            impulse += contact.push();
+            impulse += contact.whole_impulse();
             weight += contact.impulse;
         }
         let positions = self.body.asset().fracture.positions.iter();

@@ -133,7 +133,7 @@ fn friction_pushes_as_a_normal_impulse_does() {
         impact(&body, std::slice::from_ref(&rubbed), &config).unwrap(),
     );
     assert!(b.report().peak_elastic_energy > 1.1 * a.report().peak_elastic_energy);
-    let tilted = plain.push() + rubbed.friction;
+    let tilted = plain.whole_impulse() + rubbed.friction;
     let as_normal = Contact {
         normal: tilted,
         impulse: tilted.length(),

@@ -244,11 +244,11 @@ pub(crate) fn cracks(analysis: &Analysis, pose: Pose, share: f64) -> Vec<Batch> 
 
 /// Arrows along the impulses on the body, the longest half as long as the body reaches.
 pub(crate) fn impulse(blow: &Blow, picture: &mut Picture) {
-    let largest = blow.contacts.iter().map(|c| c.push().length());
+    let largest = blow.contacts.iter().map(|c| c.whole_impulse().length());
     let largest = largest.fold(f32::MIN_POSITIVE, f32::max);
     let longest = 0.6 * reach(blow.body.asset());
     for contact in &blow.contacts {
-        let push = contact.push() / largest * longest;
+        let push = contact.whole_impulse() / largest * longest;
         let tip = out(blow.pose, contact.point);
         let tail = out(blow.pose, contact.point - push);
         picture.dots.push(Dot {

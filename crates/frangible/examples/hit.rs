@@ -163,7 +163,7 @@ fn blow(body: &Body, side: Vec3, speed: f64) -> Result<Contact, Box<dyn Error>> 
         .max_by(|a, b| a.dot(side).total_cmp(&b.dot(side)))
         .ok_or("a body without nodes")?;
     let stone = Striker::fixed(&Material::preset("stone")?);
-    Ok(Contact::collision(asset, point, -side, speed, stone))
+    Ok(Contact::strike(point, -side, speed as f32, stone))
 }
 
 fn count(outcome: &Outcome) -> usize {

@@ -17,7 +17,10 @@ fn body() -> Body {
 }
 
 fn hit(impulse: f32, speed: f32) -> Contact {
-    Contact::new(Vec3::ONE, Vec3::NEG_ONE, impulse, speed, Striker::rigid())
+    Contact {
+        impulse: impulse,
+        ..Contact::strike(Vec3::ONE, Vec3::NEG_ONE, speed, Striker::rigid())
+    }
 }
 
 /// What every load says of a configuration.
@@ -95,7 +98,7 @@ fn a_configuration_with_a_number_out_of_its_range_is_refused_by_every_load() {
 
 #[test]
 fn an_error_about_a_number_without_a_unit_has_no_gap() {
-    let contact = Contact::new(Vec3::ONE, Vec3::ZERO, 1.0, 1.0, Striker::rigid());
+    let contact = Contact::strike(Vec3::ONE, Vec3::ZERO, 1.0, Striker::rigid());
     let text = contact.validate().unwrap_err().to_string();
     assert!(text.contains("is 0; it must"), "{text}");
     assert!(!text.contains("  "), "{text}");

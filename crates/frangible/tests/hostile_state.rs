@@ -70,7 +70,10 @@ fn states_that_no_impact_left_are_refused_or_can_be_used() {
             continue;
         }
         for impulse in [1e-6, 1e-2, 10.0] {
-            let contact = Contact::new(Vec3::ONE, Vec3::NEG_ONE, impulse, 1.0, Striker::rigid());
+            let contact = Contact {
+                impulse: impulse,
+                ..Contact::strike(Vec3::ONE, Vec3::NEG_ONE, 1.0, Striker::rigid())
+            };
             let config = FractureConfig::default();
             used += usize::from(impact(&body, &[contact], &config).is_ok());
         }

@@ -181,7 +181,7 @@ fn vibration_holds_no_more_energy_than_the_blow_brought() {
 #[test]
 fn a_script_lasts_as_long_as_it_says() {
     let hit = block_hit(1.0);
-    let script = Contact::script(hit.point, 0.1 * hit.normal, 5e-3);
+    let script = Contact::push(hit.point, 0.1 * hit.normal, 5e-3);
     for mut config in [
         FractureConfig::default(),
         FractureConfig::with_given_impulses(),

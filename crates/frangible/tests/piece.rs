@@ -58,7 +58,7 @@ fn check(parent: &Body, fracture: &Fracture, breaks: &mut [usize; 4]) {
         assert!((piece.asset().mass.mass / fragment.mass.mass - 1.0).abs() < 1e-12);
         let at = fragment.mesh.positions[0];
         let toward = -at.normalize_or(Vec3::X);
-        let hit = Contact::new(at, toward, 1.0, 40.0, bodies::steel_ball(0.4));
+        let hit = Contact::strike(at, toward, 40.0, bodies::steel_ball(0.4));
         let outcome = impact(&piece, &[hit], &FractureConfig::default()).expect("an outcome");
         if let Outcome::Broke(again) = outcome {
             check(&piece, &again, breaks);

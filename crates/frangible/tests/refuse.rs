@@ -251,8 +251,8 @@ fn a_script_with_friction_is_a_push() {
             let (outcome, _) = impact_traced(&body, &[contact], &config).unwrap();
             outcome.report().peak_strain_energy
         };
-        let at_once = strained(Contact::script(hit.point, factor * impulse, duration));
-        let mut rubbing = Contact::script(hit.point, impulse, duration);
+        let at_once = strained(Contact::push(hit.point, factor * impulse, duration));
+        let mut rubbing = Contact::push(hit.point, impulse, duration);
         rubbing.friction = (factor - 1.0) * impulse;
         let apart = strained(rubbing) / at_once - 1.0;
         assert!(at_once > 0.0 && apart.abs() < 1e-3, "{at_once} {apart}");
@@ -267,9 +267,9 @@ fn a_script_of_friction_alone_pushes() {
         FractureConfig::with_given_impulses(),
     ] {
         let hit = bodies::block_hit(20.0);
-        let mut rubbing = Contact::script(hit.point, hit.normal, 1e-4);
+        let mut rubbing = Contact::push(hit.point, hit.normal, 1e-4);
         (rubbing.impulse, rubbing.friction) = (0.0, 500.0 * hit.normal);
-        let at_once = Contact::script(hit.point, 500.0 * hit.normal, 1e-4);
+        let at_once = Contact::push(hit.point, 500.0 * hit.normal, 1e-4);
         let outcome = |contact: &Contact, config: &FractureConfig| {
             impact(&block().body(1), std::slice::from_ref(contact), config).unwrap()
         };
@@ -292,7 +292,7 @@ fn a_script_with_friction_moves_what_a_striker_beside_it_feels() {
         found.expect("a contact that pushes").reports()[0].impulse
     };
     let push = bodies::pane_hit(0.0, 0.0, 1.0);
-    let script = |impulse: f32| Contact::script(push.point, impulse * push.normal, 5e-4);
+    let script = |impulse: f32| Contact::push(push.point, impulse * push.normal, 5e-4);
     let mut rubbing = script(1e-2);
     rubbing.friction = 2e-2 * push.normal;
     let (alone, at_once, rubbing) = (felt(script(1e-6)), felt(script(3e-2)), felt(rubbing));

@@ -26,13 +26,10 @@ fn however_slowly_a_contact_approaches_its_steps_are_few() {
         for speed in [0.0, f32::from_bits(1), f32::MIN_POSITIVE, 1e-20, 1e-6] {
             for impulse in [f32::from_bits(1), 1e-6, 1.0, 1e6] {
                 let striker = Striker::rigid();
-                let contacts = [Contact::new(
-                    Vec3::ONE,
-                    Vec3::NEG_ONE,
-                    impulse,
-                    speed,
-                    striker,
-                )];
+                let contacts = [Contact {
+                    impulse: impulse,
+                    ..Contact::strike(Vec3::ONE, Vec3::NEG_ONE, speed, striker)
+                }];
                 let (outcome, _) =
                     frangible::internals::impact_traced(&body, &contacts, &config).unwrap();
                 let steps = outcome.report().time_steps;

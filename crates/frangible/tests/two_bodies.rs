@@ -14,9 +14,8 @@ struct Place(Vec3, Vec3, Vec3);
 
 /// The contact as one of two bodies feels it: the other one strikes it at its own place.
 fn met(body: &Body, here: Place, other: &Body, there: Place, speed: f32) -> Contact {
-    let bare = |Place(point, normal, friction): Place, striker: Striker| Contact {
-        friction,
-        ..Contact::new(point, normal, 1.0, speed, striker)
+    let bare = |Place(point, normal, friction): Place, striker: Striker| {
+        Contact::strike(point, normal, speed, striker).with_friction(friction)
     };
     let config = FractureConfig::default();
     let striker = Striker::flexible(other, &bare(there, Striker::rigid()), &config).unwrap();
@@ -266,7 +265,7 @@ fn a_striker_that_cannot_be_made_is_an_error() {
     let body = block().body(1);
     let config = FractureConfig::default();
     let there = |point: Vec3, normal: Vec3| {
-        let contact = Contact::new(point, normal, 1.0, 1.0, Striker::rigid());
+        let contact = Contact::strike(point, normal, 1.0, Striker::rigid());
         Striker::flexible(&body, &contact, &config)
     };
     assert!(there(Vec3::Z, Vec3::NEG_Z).is_ok());

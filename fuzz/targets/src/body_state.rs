@@ -31,7 +31,7 @@ pub fn body_state(data: &[u8]) {
         return;
     }
     for impulse in [1e-6, 1e-2] {
-        let contact = Contact::new(Vec3::ONE, Vec3::NEG_ONE, impulse, 1.0, Striker::rigid());
+        let contact = Contact { impulse, ..Contact::strike(Vec3::ONE, Vec3::NEG_ONE, 1.0, Striker::rigid()) };
         let _ = impact(&body, &[contact], &FractureConfig::default());
     }
 }

@@ -117,10 +117,10 @@ fn contact(draw: &mut Draw<'_>, asset: &Asset, config: &FractureConfig) -> Conta
     let (point, normal) = (draw.vector(0.15), draw.direction());
     if draw.below(4) == 3 {
         let push = normal * draw.size(1e-4, 100.0) as f32;
-        return Contact::script(point, push, draw.size(1e-6, 0.1) as f32);
+        return Contact::push(point, push, draw.size(1e-6, 0.1) as f32);
     }
     let speed = draw.size(0.1, 30.0);
-    let plain = Contact::new(point, normal, 1.0, speed as f32, Striker::rigid());
+    let plain = Contact::strike(point, normal, speed as f32, Striker::rigid());
     let striker = striker(draw, config, &plain);
     let mut contact = Contact::collision(asset, point, normal, speed, striker);
     if draw.below(4) == 3 {

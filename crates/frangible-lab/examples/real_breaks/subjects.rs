@@ -140,7 +140,10 @@ fn ice_ball(speed: f32) -> Result<Subject, Box<dyn Error>> {
     let (asset, _) = frangible_bake::bake(&spec, &mut |_| {})?;
     let impulse = asset.mass.mass as f32 * speed;
     let lowest = Vec3::new(0.0, 0.0, -0.03);
-    let contact = Contact::new(lowest, Vec3::Z, impulse, speed, Striker::fixed(&stone));
+    let contact = Contact {
+        impulse: impulse,
+        ..Contact::strike(lowest, Vec3::Z, speed, Striker::fixed(&stone))
+    };
     let mut features = solid();
     features.push(Feature::new(
         "cracks that hold the line of the blow",

@@ -98,13 +98,15 @@ pub(crate) fn impact_on(
         for point in &group {
             let approach_speed = approach(body, partner, point.position, point.normal);
             if approach_speed > config.impact_speed && point.impulse > 0.0 {
-                let mut contact = Contact::new(
-                    point.position,
-                    point.normal,
-                    point.impulse,
-                    approach_speed,
-                    striker(body, partner, point, physics, surfaces),
-                );
+                let mut contact = Contact {
+                    impulse: point.impulse,
+                    ..Contact::strike(
+                        point.position,
+                        point.normal,
+                        approach_speed,
+                        striker(body, partner, point, physics, surfaces),
+                    )
+                };
                 if known {
                     // Restitution comes after friction, in the engine; the blow's friction follows its normal force.
                     let most = point.friction_coefficient * point.impulse;

@@ -64,7 +64,10 @@ impl Load {
     pub(crate) fn cause(&self, dt: f32) -> Impact {
         let contact = |f: &Force| {
             let (normal, size) = (f.force.normalize_or(Vec3::Y), f.force.length());
-            Contact::new(f.point, normal, size * dt, 0.0, Striker::rigid())
+            Contact {
+                impulse: size * dt,
+                ..Contact::strike(f.point, normal, 0.0, Striker::rigid())
+            }
         };
         Impact {
             contacts: self.forces.iter().map(contact).collect(),

@@ -24,10 +24,9 @@ impl BreakableWorld {
         finite("point", point)?;
         finite("direction", toward)?;
         let to_body = rigid.rotation().inverse();
-        let mut on_it = Contact::new(
+        let mut on_it = Contact::strike(
             to_body * (point - rigid.translation()),
             to_body * -toward.normalize_or_zero(),
-            0.0,
             0.0,
             Striker::rigid(),
         );

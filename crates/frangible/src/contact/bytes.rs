@@ -61,7 +61,7 @@ impl Contact {
             .split_first_chunk::<{ Self::BYTES }>()
             .ok_or_else(short)?;
         let mut read = (head.as_chunks().0.iter()).map(|&place| f32::from_le_bytes(place));
-        let mut contact = Self::new(Vec3::ZERO, Vec3::ZERO, 0.0, 0.0, Striker::rigid());
+        let mut contact = Self::strike(Vec3::ZERO, Vec3::ZERO, 0.0, Striker::rigid());
         for (number, read) in contact.numbers().into_iter().zip(&mut read) {
             *number = read;
         }
@@ -118,13 +118,15 @@ mod tests {
     use super::*;
 
     fn contact() -> Contact {
-        let mut contact = Contact::new(
-            Vec3::new(0.1, -0.2, 0.3),
-            Vec3::new(0.6, 0.0, -0.8),
-            1.5,
-            7.25,
-            Striker::rigid(),
-        );
+        let mut contact = Contact {
+            impulse: 1.5,
+            ..Contact::strike(
+                Vec3::new(0.1, -0.2, 0.3),
+                Vec3::new(0.6, 0.0, -0.8),
+                7.25,
+                Striker::rigid(),
+            )
+        };
         contact.friction = Vec3::new(0.01, f32::MIN_POSITIVE, -0.0);
         contact
     }

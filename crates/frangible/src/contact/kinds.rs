@@ -180,33 +180,45 @@ impl Striker {
 }
 
 impl Contact {
-    /// A contact without friction, from its point (m), the direction of the impulse on this body, the impulse (N·s), the approach speed
-    /// (m/s) and the striker.
+    /// A blow without friction: the striker hits the body at `point`, m, while it approaches along `normal`, a direction into the body, at `speed`,
+    /// m/s. Force, duration and impulse are results.
     #[must_use]
-    pub const fn new(
-        point: Vec3,
-        normal: Vec3,
-        impulse: f32,
-        approach_speed: f32,
-        striker: Striker,
-    ) -> Self {
+    pub const fn strike(point: Vec3, normal: Vec3, speed: f32, striker: Striker) -> Self {
         Self {
             point,
             normal,
-            impulse,
+            impulse: 0.0,
             friction: Vec3::ZERO,
-            approach_speed,
+            approach_speed: speed,
             duration: 0.0,
             striker,
         }
     }
 
-    /// A scripted half-sine push, from its point (m), its impulse on this body (N·s) and its duration (s).
+    /// A half-sine push at `point`, m, with this impulse on the body, N·s, and this duration, s.
     #[must_use]
-    pub fn script(point: Vec3, impulse: Vec3, duration: f32) -> Self {
-        let mut contact = Self::new(point, impulse, impulse.length(), 0.0, Striker::rigid());
-        contact.duration = duration;
-        contact
+    pub fn push(point: Vec3, impulse: Vec3, duration: f32) -> Self {
+        Self {
+            impulse: impulse.length(),
+            duration,
+            ..Self::strike(point, impulse, 0.0, Striker::rigid())
+        }
+    }
+
+    /// The blow with friction: `over_normal` is the force of friction on the body over the normal force, perpendicular to the normal. Where the
+    /// striker slides, its length is the coefficient of friction.
+    #[must_use]
+    pub fn with_friction(self, over_normal: Vec3) -> Self {
+        let impulse = if self.impulse > 0.0 {
+            self.impulse
+        } else {
+            1.0
+        };
+        Self {
+            impulse,
+            friction: over_normal * impulse,
+            ..self
+        }
     }
 
     /// Returns true if the contact is scripted, with given impulse and duration.
@@ -234,7 +246,8 @@ impl Contact {
     }
 
     /// A frictionless rigid-body collision. The striker hits a body of this asset at `point`, m, moving `toward` a direction of any length at
-    /// `speed`, m/s; the impulse is (1 + e) v / (nᵀ K n of both). Returns `None` if neither can move.
+    /// `speed`, m/s; the impulse, an input of models that do not integrate the blow, is (1 + e) v / (nᵀ K n of both), or zero if neither can move.
+    #[doc(hidden)]
     #[must_use]
     pub fn collision(
         asset: &Asset,
@@ -255,12 +268,15 @@ impl Contact {
         } else {
             0.0
         };
-        Self::new(point, normal, impulse as f32, speed as f32, striker)
+        Self {
+            impulse: impulse as f32,
+            ..Self::strike(point, normal, speed as f32, striker)
+        }
     }
 
     /// Total impulse on this body, N·s, including friction.
     #[must_use]
-    pub fn push(&self) -> Vec3 {
+    pub fn whole_impulse(&self) -> Vec3 {
         self.normal.normalize_or_zero() * self.impulse + self.friction
     }
 
@@ -270,7 +286,7 @@ impl Contact {
         if !self.rubs_by_script() {
             return Some(self.clone());
         }
-        let push = self.push();
+        let push = self.whole_impulse();
         let impulse = push.length();
         (impulse > 0.0).then(|| Self {
             normal: push,

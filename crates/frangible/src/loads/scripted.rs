@@ -29,7 +29,10 @@ pub fn fracture_at(
     };
     // The speed that an immovable striker without bounce needs for this impulse.
     let size = impulse.length();
-    let mut contact = Contact::new(point, impulse, size, 0.0, striker);
+    let mut contact = Contact {
+        impulse: size,
+        ..Contact::strike(point, impulse, 0.0, striker)
+    };
     contact.validate()?;
     let asset = &*body.asset;
     let at = body.prepared.surface.closest(point);

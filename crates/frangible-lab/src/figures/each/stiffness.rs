@@ -62,7 +62,7 @@ fn contact(pig: &Asset, striker: Striker) -> Contact {
 fn quasi_static(body: &Body, contact: &Contact) -> Result<Outcome, FigureError> {
     let force = Force {
         point: contact.point,
-        force: contact.push() / STEP as f32,
+        force: contact.whole_impulse() / STEP as f32,
     };
     Ok(rest(
         body,

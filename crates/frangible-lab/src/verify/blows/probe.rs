@@ -122,10 +122,9 @@ pub(crate) fn body(asset: Asset) -> Result<Body, BakeError> {
 /// A steel ball on the upper face of the plate.
 pub(crate) fn ball(at: [f64; 2], speed: f64, [mass, radius]: [f64; 2]) -> Contact {
     let steel = Material::preset("steel").expect("steel is a preset");
-    Contact::new(
+    Contact::strike(
         Vec3::new(at[0] as f32, at[1] as f32, 0.5 * PLATE.thickness as f32),
         Vec3::NEG_Z,
-        0.0,
         speed as f32,
         Striker::ball(&steel, mass, radius),
     )

@@ -181,10 +181,9 @@ fn block() -> Result<Vec<Check>, BakeError> {
     let mass = 7850.0 * 4.0 / 3.0 * PI * radius.powi(3);
     let k = spring(&glass, radius);
     let steel = Material::preset("steel").expect("steel is a preset");
-    let contact = Contact::new(
+    let contact = Contact::strike(
         Vec3::new(0.003, 0.004, 0.5 * SIDE as f32),
         Vec3::NEG_Z,
-        0.0,
         SPEED as f32,
         Striker::ball(&steel, mass, radius),
     );
@@ -240,10 +239,9 @@ fn rod() -> Result<Vec<Check>, BakeError> {
         curvature_radius: radius as f32,
         ..Striker::rigid()
     };
-    let contact = Contact::new(
+    let contact = Contact::strike(
         Vec3::new(-0.5 * LENGTH as f32, 0.0, 0.0),
         Vec3::X,
-        0.0,
         SPEED as f32,
         striker,
     );

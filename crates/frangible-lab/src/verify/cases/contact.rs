@@ -77,7 +77,7 @@ fn compute(progress: &mut dyn FnMut(f64)) -> Result<Findings, BakeError> {
         ..Striker::rigid()
     };
     let top = Vec3::new(0.0, RADII[0] as f32, 0.0);
-    let hit = Contact::new(top, Vec3::NEG_Y, 0.2, SPEED as f32, striker);
+    let hit = Contact::strike(top, Vec3::NEG_Y, SPEED as f32, striker);
     let asset = Arc::new(asset);
     let body = Body::new(Arc::clone(&asset), 1).map_err(BakeError::from)?;
     let load = modal_load(&body, &[hit]);

@@ -42,7 +42,7 @@ fn meeting(
 ) -> Result<(Blow, f64), BakeError> {
     let body = solid(shape, &glass(), edge, modes)?;
     let config = FractureConfig::default();
-    let mut contact = Contact::new(point, normal, 0.0, speed as f32, Striker::rigid());
+    let mut contact = Contact::strike(point, normal, speed as f32, Striker::rigid());
     contact.striker = Striker::flexible(&body, &contact, &config)?;
     contact.striker.curvature_radius = radius as f32;
     let mass = body.asset().mass.mass;

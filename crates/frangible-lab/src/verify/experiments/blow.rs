@@ -22,6 +22,9 @@ impl Projectile {
         let striker = Striker::ball(steel, self.mass, self.radius);
         // A projectile that stops: the impulse in the paper's model.
         let impulse = (self.mass * speed) as f32;
-        Contact::new(top, Vec3::NEG_Z, impulse, speed as f32, striker)
+        Contact {
+            impulse: impulse,
+            ..Contact::strike(top, Vec3::NEG_Z, speed as f32, striker)
+        }
     }
 }

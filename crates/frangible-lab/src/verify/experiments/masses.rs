@@ -156,7 +156,10 @@ fn ball(plan: &MassPlan, counter: &Counter<'_>) -> Result<MassRun, VerifyError> 
     let striker = Striker::fixed(&stone);
     let impulse = mass * SPEED;
     let lowest = Vec3::new(0.0, 0.0, -(RADIUS as f32));
-    let contact = Contact::new(lowest, Vec3::Z, impulse as f32, SPEED as f32, striker);
+    let contact = Contact {
+        impulse: impulse as f32,
+        ..Contact::strike(lowest, Vec3::Z, SPEED as f32, striker)
+    };
     let shape = SolidShape {
         tets: plan.tets,
         ..SolidShape::new(Arc::new(DistanceSolid::sphere(DVec3::ZERO, RADIUS)))

@@ -96,7 +96,7 @@ impl NearField {
 fn stress(plate: &frangible::Asset) -> Result<(f64, Vec<StressRow>), BakeError> {
     let impulse = 2.0 / std::f64::consts::PI * FORCE * DURATION;
     let top = Vec3::new(0.0, 0.0, 0.5 * PLATE.thickness as f32);
-    let contact = Contact::script(top, impulse as f32 * Vec3::NEG_Z, DURATION as f32);
+    let contact = Contact::push(top, impulse as f32 * Vec3::NEG_Z, DURATION as f32);
     let fine: Vec<f64> = (0..48).map(|i| 1e-3 * 1.065_f64.powi(i)).collect();
     let mut rows: Vec<StressRow> = Vec::new();
     let mut radius = 0.0;

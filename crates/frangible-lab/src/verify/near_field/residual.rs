@@ -61,7 +61,7 @@ pub(super) fn compute() -> Result<Vec<ResidualRow>, BakeError> {
     let stone = Striker::fixed(&Material::preset("stone").expect("stone is a preset"));
     let mut rows = Vec::new();
     for (asset, name, point, normal, followed) in cases {
-        let contact = Contact::new(point, normal.normalize(), 0.0, 3.0, stone.clone());
+        let contact = Contact::strike(point, normal.normalize(), 3.0, stone.clone());
         let peak = |modes: usize, residual: bool| {
             let mut config = FractureConfig::default();
             (config.residual, config.near_field) = (residual, None);
