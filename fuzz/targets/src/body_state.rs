@@ -31,7 +31,10 @@ pub fn body_state(data: &[u8]) {
         return;
     }
     for impulse in [1e-6, 1e-2] {
-        let contact = Contact { impulse, ..Contact::strike(Vec3::ONE, Vec3::NEG_ONE, 1.0, Striker::rigid()) };
+        let contact = Contact {
+            impulse,
+            ..Contact::strike(Vec3::ONE, Vec3::NEG_ONE, 1.0, Striker::rigid())
+        };
         let _ = impact(&body, &[contact], &FractureConfig::default());
     }
 }
