@@ -85,7 +85,7 @@ fn change_of_impacts(exact: &Asset, compact: &Asset) -> Result<f64, InputError> 
         let normal = -(b - a).cross(c - a).normalize();
         let impulse = (0.3 * exact.asset().mass.mass) as f32;
         let contact = Contact {
-            impulse: impulse,
+            impulse,
             ..Contact::strike((a + b + c) / 3.0, normal, 3.0, striker)
         };
         let mut config = FractureConfig::default();

@@ -18,7 +18,7 @@ fn body() -> Body {
 
 fn hit(impulse: f32, speed: f32) -> Contact {
     Contact {
-        impulse: impulse,
+        impulse,
         ..Contact::strike(Vec3::ONE, Vec3::NEG_ONE, speed, Striker::rigid())
     }
 }

@@ -71,7 +71,7 @@ fn states_that_no_impact_left_are_refused_or_can_be_used() {
         }
         for impulse in [1e-6, 1e-2, 10.0] {
             let contact = Contact {
-                impulse: impulse,
+                impulse,
                 ..Contact::strike(Vec3::ONE, Vec3::NEG_ONE, 1.0, Striker::rigid())
             };
             let config = FractureConfig::default();

@@ -27,7 +27,7 @@ fn however_slowly_a_contact_approaches_its_steps_are_few() {
             for impulse in [f32::from_bits(1), 1e-6, 1.0, 1e6] {
                 let striker = Striker::rigid();
                 let contacts = [Contact {
-                    impulse: impulse,
+                    impulse,
                     ..Contact::strike(Vec3::ONE, Vec3::NEG_ONE, speed, striker)
                 }];
                 let (outcome, _) =

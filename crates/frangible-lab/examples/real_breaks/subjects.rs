@@ -141,7 +141,7 @@ fn ice_ball(speed: f32) -> Result<Subject, Box<dyn Error>> {
     let impulse = asset.mass.mass as f32 * speed;
     let lowest = Vec3::new(0.0, 0.0, -0.03);
     let contact = Contact {
-        impulse: impulse,
+        impulse,
         ..Contact::strike(lowest, Vec3::Z, speed, Striker::fixed(&stone))
     };
     let mut features = solid();

@@ -23,7 +23,7 @@ impl Projectile {
         // A projectile that stops: the impulse in the paper's model.
         let impulse = (self.mass * speed) as f32;
         Contact {
-            impulse: impulse,
+            impulse,
             ..Contact::strike(top, Vec3::NEG_Z, speed as f32, striker)
         }
     }
