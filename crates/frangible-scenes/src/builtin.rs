@@ -133,7 +133,7 @@ pub fn scene(name: &str) -> Result<Scene, SceneError> {
             "brick",
             200,
             Quat::from_rotation_z(1.536),
-            drop(5.0),
+            drop(3.0),
         ),
         "chocolate" => build(
             "chocolate",

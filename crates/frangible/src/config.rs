@@ -56,7 +56,7 @@ pub enum Model {
 }
 
 /// Speed of cracks over that of Rayleigh waves.
-const CRACK_SPEED: f64 = 0.5;
+pub(crate) const CRACK_SPEED: f64 = 0.5;
 
 /// Length over which a crack turns completely, m.
 const TURNING_LENGTH: f64 = 0.0067;

@@ -223,6 +223,12 @@ impl Extents {
         }
     }
 
+    /// Time at which the latest tetrahedron of a crack joined, s.
+    #[inline(always)]
+    pub(super) fn latest(&self, crack: usize) -> f64 {
+        self.list[crack].latest
+    }
+
     /// Half the length of a crack, m, no less than that of an edge.
     #[inline(always)]
     pub(super) fn half_length(&self, crack: usize) -> f32 {

@@ -196,7 +196,7 @@ impl Releases {
     }
 }
 
-/// Remaining part of a stress at a crack's place, m, when all other cracks have released it as of `now`, s; `opposite`: the stress on the other face
+/// Remaining part of a stress at the front of a crack, at its place, m, when all other cracks have released it as of `now`, s; `opposite`: the stress on the other face
 /// of a wall. None where the close ones leave no longer `enough`. Nothing is remembered.
 pub(super) fn once(
     system: &CrackSystem,
@@ -207,7 +207,7 @@ pub(super) fn once(
     enough: impl Fn(&Symmetric3) -> bool,
 ) -> Option<Symmetric3> {
     let beta = opposite.map(|_| bent(system.asset.material.poisson_ratio));
-    let mut memory = Memory::new(place, beta);
+    let mut memory = Memory::of_front(place, beta);
     let mut left = stress;
     for ring in Ring::ALL {
         memory.update(Sources::of(system), ring, Some(crack), now);

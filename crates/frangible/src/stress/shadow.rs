@@ -2,10 +2,10 @@
 //!
 //! Beside the middle of a crack of half-length a in an infinite wall or solid, at distance y, the share
 //! `w = y (y² + (1 + β) a²) / (y² + a²)^1.5` of the tension across it is left:
-//! - β = −1 where the wall is stretched, `y³ / (y² + a²)^1.5`: Westergaard's field (J. Appl. Mech. 6, A49, 1939);
+//! - β = −1 where the wall or solid is stretched, `y³ / (y² + a²)^1.5`: Westergaard's field (J. Appl. Mech. 6, A49, 1939);
 //! - β = (1 − ν) / (3 + ν) where a wall is bent: a crack through it, its edges free in the sense of Kirchhoff's theory of plates.
 //!
-//! A solid is released less far, since a crack in it ends on all sides. Over the middle of a penny of radius a
+//! The front of another crack in a solid is released less far, since a crack there ends on all sides. Over the middle of a penny of radius a
 //! `w = 1 − (2/π) (atan(a/y) − ay/(y² + a²) + 2a³y/(y² + a²)²)` is left (I. N. Sneddon, Proc. R. Soc. A 187 (1946) 229). A crack that is longer than wide
 //! lies between a penny and an endless crack of its half-width.
 //!
@@ -31,7 +31,7 @@ use super::lanes::StressLanes;
 use super::tensor::{Real, Symmetric3, times};
 use super::wide::{Wide, narrow, wide};
 
-/// β where a wall is stretched.
+/// β where a wall or a solid is stretched.
 pub const STRETCHED: f32 = -1.0;
 
 /// β where a wall is bent.

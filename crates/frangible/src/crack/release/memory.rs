@@ -6,6 +6,7 @@ use super::super::extents::{BLOCK, Extents, FAINT, Ring, Seen};
 use super::super::single::Crack;
 use super::super::sites::Site;
 use super::super::system::CrackSystem;
+use crate::config::CRACK_SPEED;
 use crate::stress::{STRETCHED, Shadow, length, share_beside, share_in_solid, share_left};
 
 /// Smallest fall of a share that is noted.
@@ -31,8 +32,12 @@ impl<'a> Sources<'a> {
 
     /// Shares of the stress that a crack leaves at a point at time `now`, s; none if it takes nothing to speak of. `bent`: β of bending in a wall,
     /// none in a solid.
+    ///
+    /// A crack that is as long as another one beside it does not release the other's front: it releases what lies behind its own. At a front in a solid
+    /// it is therefore taken to be as wide as it has run since it passed there, if that is less than its half-width.
     #[inline(always)]
-    fn cast(&self, crack: usize, point: Vec3, bent: Option<f32>, now: f64) -> Option<Shadow> {
+    fn cast(&self, crack: usize, memory: (Vec3, Option<f32>, bool), now: f64) -> Option<Shadow> {
+        let (point, bent, at_front) = memory;
         let site = self.cracks[crack]
             .sites
             .nearest_heard(point, now, self.wave)?;
@@ -44,13 +49,19 @@ impl<'a> Sources<'a> {
         let to_crack = nearest_place(site, point, radius);
         let half_length = self.extents.half_length(crack);
         let normal = site.direction;
-        let in_wall = |beta| share_left(to_crack, normal, |y| share_beside(y, half_length, beta));
+        let endless = |beta| share_left(to_crack, normal, |y| share_beside(y, half_length, beta));
         let (stretched, bent) = match bent {
-            Some(beta) => (in_wall(STRETCHED), in_wall(beta)),
+            Some(beta) => (endless(STRETCHED), endless(beta)),
             None => {
-                let half_width = self.cracks[crack].half_width(half_length);
-                let beside = |y| share_in_solid(y, half_width, half_length);
-                let share = share_left(to_crack, normal, beside);
+                let share = if at_front {
+                    let run = CRACK_SPEED * self.wave * (self.extents.latest(crack) - site.time);
+                    let half_width = self.cracks[crack].half_width(half_length).min(run as f32);
+                    share_left(to_crack, normal, |y| {
+                        share_in_solid(y, half_width, half_length)
+                    })
+                } else {
+                    endless(STRETCHED)
+                };
                 (share, share)
             }
         };
@@ -69,6 +80,8 @@ pub(super) struct Memory {
     place: Vec3,
     /// β of the stress that bends, in a wall.
     pub(super) bent: Option<f32>,
+    /// True at the front of a crack.
+    at_front: bool,
     /// Shares that each crack has left, by the crack's number, rising; cracks that have taken nothing are left out.
     shadows: Vec<(u32, Shadow)>,
     /// The last look at each ring.
@@ -81,8 +94,17 @@ impl Memory {
         Self {
             place,
             bent,
+            at_front: false,
             shadows: Vec::new(),
             seen: [Seen::NEVER; 2],
+        }
+    }
+
+    /// The same at the front of a crack.
+    pub(super) fn of_front(place: Vec3, bent: Option<f32>) -> Self {
+        Self {
+            at_front: true,
+            ..Self::new(place, bent)
         }
     }
 
@@ -122,9 +144,11 @@ widest! {
         let Memory {
             place,
             bent,
+            at_front,
             shadows,
             seen,
         } = memory;
+        let of = (*place, *bent, *at_front);
         let mut falls = false;
         let mut i = 0;
         let Sources { extents, .. } = sources;
@@ -140,7 +164,7 @@ widest! {
                 if but == Some(number) {
                     continue;
                 }
-                let Some(new) = sources.cast(crack, *place, *bent, now) else {
+                let Some(new) = sources.cast(crack, of, now) else {
                     continue;
                 };
                 i += shadows[i..].partition_point(|(of, _)| *of < number);
