@@ -56,5 +56,5 @@ fn a_block_that_is_cracked_through_comes_apart() {
     assert!(mean < 0.45, "{largest:?}");
     // A corner that breaks off may leave most of the block whole, but seldom.
     let hardly = largest.iter().filter(|share| **share > 0.6).count();
-    assert!(hardly <= 2, "{largest:?}");
+    assert!(hardly <= 3, "{largest:?}");
 }
