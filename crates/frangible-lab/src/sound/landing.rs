@@ -31,7 +31,7 @@ pub struct Landing {
     pub mass: f64,
     /// Longer side, m.
     pub side: f64,
-    /// For each of [`SPEEDS`]: the loudest pressure, and the highest level of a meter set to *fast*, dB.
+    /// For each of `SPEEDS`: the loudest pressure, and the highest level of a meter set to *fast*, dB.
     pub levels: Vec<[f64; 2]>,
     /// Lowest tone, Hz; its time of decay by 60 dB, s; and that of the material alone.
     pub lowest: [f64; 3],
