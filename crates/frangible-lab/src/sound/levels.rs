@@ -30,7 +30,7 @@ pub struct HeardLevel {
     pub loudness: [Loudness; 2],
     /// Full scale, the pressure of a sample of 1, as a sound pressure level, dB over 20 µPa.
     pub full_scale: [f64; 2],
-    /// What the leveller took from the loudest and gave to the softest samples, dB.
+    /// Largest reduction of a loud sample and largest gain of a soft one, dB.
     pub changed: [f64; 2],
     /// The intervals of 20 ms in which a landing begins.
     pub landings: Vec<usize>,

@@ -47,8 +47,8 @@ pub struct LevellerReport {
 ///
 /// - sounds whose peaks are below −6 dB of full scale are raised by half of what they lack (a ratio of 2 : 1), at most by 18 dB. The
 ///   level on which that hangs rises at once and falls by 20 dB/s, so that the decay of a tone becomes slower by at most half as much;
-/// - samples above −9 dB are bent more and more, and stay below −3 dB, so that what lies between them hardly exceeds full scale. What would be more than 12 dB above
-///   that is first taken back by the gain, which begins to fall one millisecond before and returns with a time constant of 30 ms.
+/// - samples above −9 dB are bent more and more, and stay below −3 dB, so that what lies between them hardly exceeds full scale. Peaks more than
+///   12 dB above that are first limited by the gain, which begins to fall one millisecond before and returns with a time constant of 30 ms.
 ///
 /// A crash is bent for some milliseconds, in which it is noise, and keeps its place above what follows; a gain alone would duck its shards.
 ///

@@ -29,7 +29,7 @@ const GROWTH: [f64; 2] = [0.3, 1.0];
 /// The level at which a sound is played.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Level {
-    /// By loudness: soft sounds are raised and loud ones limited, so that all are heard.
+    /// An integrated loudness of −16 LUFS in files: soft sounds are raised and loud ones limited.
     #[default]
     Loudness,
     /// True to scale: all sounds have the same gain.
@@ -45,7 +45,7 @@ pub struct Levelled {
     pub full_scale: Option<f64>,
     /// Loudness of the samples.
     pub loudness: Loudness,
-    /// What the leveller did.
+    /// Statistics of the leveller.
     pub leveller: LevellerReport,
 }
 

@@ -196,8 +196,8 @@ impl Releases {
     }
 }
 
-/// Remaining part of a stress at the front of a crack, at its place, m, when all other cracks have released it as of `now`, s; `opposite`: the stress on the other face
-/// of a wall. None where the close ones leave no longer `enough`. Nothing is remembered.
+/// Remaining part of a stress at the front of a crack, at this place, m, when all other cracks have released it as of `now`, s. `opposite`: the
+/// stress on the other face of a wall. None where the close ones leave no longer `enough`. Nothing is remembered.
 pub(super) fn once(
     system: &CrackSystem,
     (crack, place): (u32, Vec3),

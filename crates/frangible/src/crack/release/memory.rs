@@ -100,7 +100,7 @@ impl Memory {
         }
     }
 
-    /// The same at the front of a crack.
+    /// The memory of a place at the front of a crack that no other crack has released. `bent`: β of the stress that bends, in a wall.
     pub(super) fn of_front(place: Vec3, bent: Option<f32>) -> Self {
         Self {
             at_front: true,
