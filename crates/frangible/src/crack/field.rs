@@ -262,9 +262,9 @@ impl<'a> StressField<'a> {
         self.elasticity.set_energy(lanes);
     }
 
-    /// Displacement of an analysis node at the step, m.
-    pub(super) fn displacement_of(&mut self, node: u32) -> Vec3 {
-        (self.moment).displacement(self.asset, self.motion, node as usize, self.step)
+    /// Displacements of analysis nodes at the step, m.
+    pub(super) fn displacements(&mut self, nodes: &[u32]) -> impl Iterator<Item = Vec3> {
+        (self.moment).displacements(self.asset, self.motion, nodes, self.step)
     }
 
     fn gradient(&mut self, point: &EmbeddedPoint) -> glam::Mat3 {

@@ -235,15 +235,11 @@ impl Section {
         self.known = false;
     }
 
-    /// Finds the resultants of a time step from the displacements of the analysis nodes, m.
-    pub(super) fn set_step(&mut self, step: usize, mut displacement: impl FnMut(u32) -> Vec3) {
+    /// Finds the resultants of a time step from the displacements of its nodes, m.
+    pub(super) fn set_step(&mut self, step: usize, displacements: impl Iterator<Item = Vec3>) {
         self.resultants.fill(0.0);
-        for (&node, factors) in self
-            .nodes
-            .iter()
-            .zip(self.factors.chunks(self.columns.len()))
-        {
-            let u = displacement(node);
+        let factors = self.factors.chunks(self.columns.len());
+        for (u, factors) in displacements.zip(factors) {
             for (sum, factor) in self.resultants.iter_mut().zip(factors.as_flattened()) {
                 *sum += f64::from(factor.dot(u));
             }

@@ -40,6 +40,8 @@ pub(crate) struct Crack {
     pub(crate) forks: Vec<(Vec3, f64)>,
     /// The section of the body in which it lies, once it is large.
     pub(super) section: Option<u32>,
+    /// Middle, m, and area, m², of its cuts, from the first, as far as a section has asked for them.
+    pub(super) polygons: Vec<(Vec3, f32)>,
     /// Area up to which no section is looked for, m².
     pub(super) unsought: f64,
     /// Tip that feeds its front, if it was there before this impact.
@@ -66,6 +68,7 @@ impl Crack {
             junctions: Vec::new(),
             forks: Vec::new(),
             section: None,
+            polygons: Vec::new(),
             unsought: 0.0,
             tip: None,
             restored: 0,

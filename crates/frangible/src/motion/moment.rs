@@ -39,17 +39,17 @@ impl Moment {
         sum
     }
 
-    /// Displacement of an analysis node at a time step, m.
-    pub(crate) fn displacement(
+    /// Displacements of analysis nodes at a time step, m.
+    pub(crate) fn displacements(
         &mut self,
         asset: &Asset,
         motion: &Motion,
-        node: usize,
+        nodes: &[u32],
         step: usize,
-    ) -> Vec3 {
+    ) -> impl Iterator<Item = Vec3> {
         self.begin(asset);
-        self.compute(asset, motion, node, step);
-        self.nodes[node].0
+        compute(self, asset, motion, nodes, step);
+        nodes.iter().map(|&node| self.nodes[node as usize].0)
     }
 
     fn begin(&mut self, asset: &Asset) {
@@ -79,8 +79,8 @@ impl Moment {
 }
 
 widest! {
-    /// Displacements of an element's nodes.
-    fn compute(moment: &mut Moment, asset: &Asset, motion: &Motion, nodes: &[u32; 10], step: usize) {
+    /// Displacements of analysis nodes.
+    fn compute(moment: &mut Moment, asset: &Asset, motion: &Motion, nodes: &[u32], step: usize) {
         for &node in nodes {
             moment.compute(asset, motion, node as usize, step);
         }
