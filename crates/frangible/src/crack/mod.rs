@@ -43,6 +43,7 @@ mod strip;
 mod surface;
 mod suspects;
 mod system;
+mod waiting;
 mod weak_rows;
 mod weak_stress;
 

@@ -24,14 +24,32 @@ const NEAR_HEIGHT: f32 = 0.25;
 const COMPACT: f32 = 2.25;
 
 impl CrackSystem<'_> {
-    /// Energy per area that the section of a front's crack gives it where it cuts its tetrahedron, J/m²; zero where the crack has none.
-    pub(super) fn section_feed(&self, front: &Front, at: Vec3, normal: Vec3) -> f64 {
-        let section = self.cracks[front.crack as usize].section;
-        section.map_or(0.0, |k| self.sections[k as usize].release_rate(at, normal))
+    /// Energy per area that the section of a front's crack gives it where it cuts its tetrahedron at the present step, J/m²; zero where the crack
+    /// has none.
+    pub(super) fn section_feed(
+        &mut self,
+        front: &Front,
+        at: Vec3,
+        normal: Vec3,
+        field: &mut StressField,
+    ) -> f64 {
+        let Some(k) = self.cracks[front.crack as usize].section else {
+            return 0.0;
+        };
+        let section = &mut self.sections[k as usize];
+        let Some(column) = section.feeding(at, normal) else {
+            return 0.0;
+        };
+        if section.step != field.step {
+            let nodes = std::mem::take(&mut section.nodes);
+            section.set_step(field.step, field.displacements(&nodes));
+            section.nodes = nodes;
+        }
+        section.release_rate(column, self.asset.material.contact_modulus())
     }
 
-    /// Finds the section of a crack that has grown, and the energy release rates there at the present step.
-    pub(super) fn keep_section(&mut self, crack: u32, field: &mut StressField) {
+    /// Finds the section of a crack that has grown.
+    pub(super) fn keep_section(&mut self, crack: u32, field: &StressField) {
         if self.config.is_paper() {
             return;
         }
@@ -40,19 +58,6 @@ impl CrackSystem<'_> {
             Some(k) => self.find_anew(k, field),
             None => self.find_first(id, field),
         }
-        let Some(k) = self.cracks[id].section else {
-            return;
-        };
-        let section = &mut self.sections[k as usize];
-        if !section.is_fed {
-            return;
-        }
-        if section.step != field.step {
-            let nodes = std::mem::take(&mut section.nodes);
-            section.set_step(field.step, field.displacements(&nodes));
-            section.nodes = nodes;
-        }
-        section.update(self.asset.material.contact_modulus());
     }
 
     /// Finds a section again, if its cracks have grown.

@@ -158,6 +158,8 @@ pub(crate) struct Front {
     pub(crate) source: Source,
     /// Area that it would have cut when the stress last did not pay for it, m²; zero where it was not asked.
     pub(crate) refused: f32,
+    /// Its place in [`CrackSystem::waiting`](super::system::CrackSystem::waiting), if it ever waited.
+    pub(crate) waiting: Option<u32>,
 }
 
 impl Eq for Front {}
