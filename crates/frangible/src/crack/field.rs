@@ -267,11 +267,6 @@ impl<'a> StressField<'a> {
         self.elasticity.set_energy(lanes);
     }
 
-    /// Displacements of analysis nodes at the step, m.
-    pub(super) fn displacements(&mut self, nodes: &[u32]) -> impl Iterator<Item = Vec3> {
-        (self.moment).displacements(self.asset, self.motion, nodes, self.step)
-    }
-
     fn gradient(&mut self, point: &EmbeddedPoint) -> glam::Mat3 {
         (self.moment).gradient(self.asset, self.motion, point, self.step)
     }

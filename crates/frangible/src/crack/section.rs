@@ -7,9 +7,14 @@
 //! f = (N, M), the energy release rate is `½ fᵀ (∂C/∂A) f`, which is K²/E'. The cracks relax f: `f = (1 + G Λ⁻¹ Gᵀ C)⁻¹ f₀`, where the rows of G
 //! are the N and M of the modes, and f₀ those of the motion without the cracks.
 
+use std::sync::Arc;
+
 use glam::{Vec2, Vec3};
 
 use super::strip;
+use crate::asset::Asset;
+use crate::motion::Motion;
+use crate::stress::{Shape, dot};
 
 /// Cosine of the largest angle between a section and a crack that runs along it.
 pub(super) const ALONG: f32 = 0.7;
@@ -35,7 +40,11 @@ pub(super) struct Section {
     pub(super) nodes: Vec<u32>,
     /// Their factors in N, N/m, and M, N, of each column: `[node][column]`.
     pub(super) factors: Vec<[Vec3; 2]>,
-    /// G Λ⁻¹ Gᵀ, a row for N and one for M of each column.
+    /// G: resultants of the modes that are followed, of unit amplitude: `[resultant][mode]`, N and M of each column one after the other.
+    pub(super) of_modes: Vec<f32>,
+    /// Those of the shapes that follow the forces, per newton.
+    of_shapes: Vec<(Arc<Shape>, Vec<f64>)>,
+    /// G Λ⁻¹ Gᵀ.
     pub(super) stiffness: Vec<f64>,
     /// N and M of the columns in the motion, N and N m, and the time step.
     resultants: Vec<f64>,
@@ -192,6 +201,8 @@ impl Section {
             columns,
             nodes: Vec::new(),
             factors: Vec::new(),
+            of_modes: Vec::new(),
+            of_shapes: Vec::new(),
             stiffness: Vec::new(),
             step: usize::MAX,
             found: 0.0,
@@ -235,16 +246,44 @@ impl Section {
         self.known = false;
     }
 
-    /// Finds the resultants of a time step from the displacements of its nodes, m.
-    pub(super) fn set_step(&mut self, step: usize, displacements: impl Iterator<Item = Vec3>) {
-        self.resultants.fill(0.0);
-        let factors = self.factors.chunks(self.columns.len());
-        for (u, factors) in displacements.zip(factors) {
-            for (sum, factor) in self.resultants.iter_mut().zip(factors.as_flattened()) {
-                *sum += f64::from(factor.dot(u));
+    /// Finds the resultants of a time step of a motion.
+    pub(super) fn set_step(&mut self, asset: &Asset, motion: &Motion, step: usize) {
+        if self.step == step {
+            return;
+        }
+        let residuals = &motion.complement.residuals;
+        for (k, residual) in residuals.iter().enumerate() {
+            let known = self.of_shapes.get(k).map(|(shape, _)| shape);
+            if !known.is_some_and(|shape| Arc::ptr_eq(shape, &residual.shape)) {
+                self.of_shapes.truncate(k);
+                let own = self.of_shape(asset, &residual.shape);
+                self.of_shapes.push((Arc::clone(&residual.shape), own));
+            }
+        }
+        let modes = self.of_modes.chunks(motion.modes.max(1));
+        for (k, (sum, row)) in self.resultants.iter_mut().zip(modes).enumerate() {
+            *sum = f64::from(dot(row, motion.at(step)));
+            for (residual, (_, own)) in residuals.iter().zip(&self.of_shapes) {
+                *sum += own[k] * f64::from(residual.force(step));
             }
         }
         (self.step, self.known) = (step, false);
+    }
+
+    /// Resultants of a shape of the body.
+    fn of_shape(&self, asset: &Asset, shape: &Shape) -> Vec<f64> {
+        let mut sums = vec![0.0; self.resultants.len()];
+        for (&node, factors) in self
+            .nodes
+            .iter()
+            .zip(self.factors.chunks(self.columns.len()))
+        {
+            let u = Vec3::from_array(shape.at(asset, node as usize));
+            for (sum, factor) in sums.iter_mut().zip(factors.as_flattened()) {
+                *sum += f64::from(factor.dot(u));
+            }
+        }
+        sums
     }
 
     /// The column that feeds a crack which enters the section at a place that is not cracked yet, m, with this normal.

@@ -31,7 +31,7 @@ impl CrackSystem<'_> {
         front: &Front,
         at: Vec3,
         normal: Vec3,
-        field: &mut StressField,
+        field: &StressField,
     ) -> f64 {
         let Some(k) = self.cracks[front.crack as usize].section else {
             return 0.0;
@@ -40,11 +40,7 @@ impl CrackSystem<'_> {
         let Some(column) = section.feeding(at, normal) else {
             return 0.0;
         };
-        if section.step != field.step {
-            let nodes = std::mem::take(&mut section.nodes);
-            section.set_step(field.step, field.displacements(&nodes));
-            section.nodes = nodes;
-        }
+        section.set_step(self.asset, field.motion, field.step);
         section.release_rate(column, self.asset.material.contact_modulus())
     }
 
@@ -389,7 +385,7 @@ impl CrackSystem<'_> {
                 }
             }
         }
-        section.stiffness = matrix;
+        (section.of_modes, section.stiffness) = (rows, matrix);
     }
 
     /// Speed of the cracks, m/s.

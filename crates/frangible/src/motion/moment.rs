@@ -39,19 +39,6 @@ impl Moment {
         sum
     }
 
-    /// Displacements of analysis nodes at a time step, m.
-    pub(crate) fn displacements(
-        &mut self,
-        asset: &Asset,
-        motion: &Motion,
-        nodes: &[u32],
-        step: usize,
-    ) -> impl Iterator<Item = Vec3> {
-        self.begin(asset);
-        compute(self, asset, motion, nodes, step);
-        nodes.iter().map(|&node| self.nodes[node as usize].0)
-    }
-
     fn begin(&mut self, asset: &Asset) {
         if self.nodes.is_empty() {
             self.nodes
@@ -79,8 +66,8 @@ impl Moment {
 }
 
 widest! {
-    /// Displacements of analysis nodes.
-    fn compute(moment: &mut Moment, asset: &Asset, motion: &Motion, nodes: &[u32], step: usize) {
+    /// Displacements of an element's nodes.
+    fn compute(moment: &mut Moment, asset: &Asset, motion: &Motion, nodes: &[u32; 10], step: usize) {
         for &node in nodes {
             moment.compute(asset, motion, node as usize, step);
         }
