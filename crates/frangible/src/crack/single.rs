@@ -158,7 +158,7 @@ pub(crate) struct Front {
     pub(crate) source: Source,
     /// Area that it would have cut when the stress last did not pay for it, m²; zero where it was not asked.
     pub(crate) refused: f32,
-    /// Its place in [`CrackSystem::waiting`](super::system::CrackSystem::waiting), if it ever waited.
+    /// Index into [`CrackSystem::waiting`](super::system::CrackSystem::waiting), if it has ever waited.
     pub(crate) waiting: Option<u32>,
 }
 

@@ -53,7 +53,7 @@ pub(crate) struct CrackSystem<'a> {
     pub(crate) fronts: BinaryHeap<Front>,
     /// Fronts that lacked energy; tried again at the next step.
     pub(crate) stalled: Vec<Front>,
-    /// What is known of the fronts that ever lacked it.
+    /// Data of the fronts that have ever waited, by [`Front::waiting`].
     pub(super) waiting: Vec<Waiting>,
     /// Fronts of the cracks from earlier impacts, asleep until the stress can move them.
     pub(crate) dormant: Vec<Front>,

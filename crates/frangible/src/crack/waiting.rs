@@ -1,7 +1,7 @@
-//! Fronts that wait for stress: bounds that spare them its search.
+//! Waiting fronts, and the upper bounds that refuse them without an evaluation of the stress.
 //!
-//! A front that is refused is tried again at each step, and most tries are in vain. So the tension at its place is bounded for all steps of a
-//! batch at once, side by side in vectors, and only where the bound pays for the front is its stress found.
+//! A refused front is tried again at each time step, and most tries fail. So an upper bound of the tension at its place is found for all steps of
+//! a batch at once, side by side in vectors. The stress is evaluated only at steps where this bound may pay for the front.
 
 use glam::Vec3;
 
@@ -11,10 +11,10 @@ use super::single::Front;
 use super::system::CrackSystem;
 use crate::stress::{Lanes, STRIDE, lane};
 
-/// Rounding of the bounds: they are sums in another order than the stress.
+/// Allowance for rounding: the bounds sum the modes in another order than the stress does.
 const ROUNDING: f32 = 1.01;
 
-/// A front that waits.
+/// A waiting front.
 #[derive(Clone, Debug)]
 pub(crate) struct Waiting {
     /// Middle of what the crack cuts of the tetrahedron ahead if it runs straight on, m.
@@ -28,8 +28,9 @@ pub(crate) struct Waiting {
 }
 
 impl CrackSystem<'_> {
-    /// A front waits that would run straight on through this place, m, and cut this area, m².
-    pub(super) fn wait(&mut self, mut front: Front, (area, place): (f32, Vec3)) {
+    /// Puts a front on the list of waiting fronts. `ahead`: the area, m², that it would cut if it ran straight on, and the middle of it, m.
+    pub(super) fn wait(&mut self, mut front: Front, ahead: (f32, Vec3)) {
+        let (area, place) = ahead;
         front.waiting.get_or_insert_with(|| {
             self.waiting.push(Waiting {
                 place,
@@ -42,13 +43,13 @@ impl CrackSystem<'_> {
         self.stalled.push(front);
     }
 
-    /// Forgets what is known of the present batch: the motion goes on in another way.
+    /// Discards everything found for the present batch, after a change of the motion.
     pub(crate) fn forget_batch(&mut self) {
         self.releases.forget_batch();
         self.waiting.iter_mut().for_each(|front| front.batch = None);
     }
 
-    /// Returns true if the present step certainly does not pay for a front that was refused.
+    /// Returns true if the upper bound of the tension shows that a refused front stays refused at the present step.
     pub(super) fn waits_on(&mut self, front: &Front, field: &mut StressField) -> bool {
         let (Some(waiting), true) = (front.waiting, front.refused > 0.0) else {
             return false;
@@ -64,8 +65,7 @@ impl CrackSystem<'_> {
         !self.may_pay_at(front, (ROUNDING * most, in_wall), place, field)
     }
 
-    /// Returns true if the stress still does not pay for a front that was refused, whichever way the crack turns: it need not be steered then.
-    /// The area is that of the refusal.
+    /// Returns true if the stress does not pay for a refused front in any direction that the crack may turn to. The area is that of the refusal.
     pub(super) fn stays_refused(
         &mut self,
         front: &Front,
@@ -80,7 +80,7 @@ impl CrackSystem<'_> {
         !self.may_pay_at(front, most, at, field)
     }
 
-    /// Returns true if the largest tension, Pa, in a wall or not, may pay for a front at a place, m.
+    /// Returns true if this tension, Pa, or the section of the crack pays for a refused front at a place, m. `in_wall`: true if it is in a wall.
     fn may_pay_at(
         &mut self,
         front: &Front,
