@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 
 use frangible::glam::Vec3;
-use frangible::internals::asset::RenderSurface;
+use frangible::internals::asset::{RenderSurface, linear_color};
 use frangible::internals::{RenderMesh, box_projection};
 use frangible::{Asset, Fragment, TriMesh};
 use frangible_recording::{MeshPart, RecordedMesh};
@@ -225,16 +225,12 @@ fn vertices(render: &RenderMesh) -> RecordedMesh {
     }
 }
 
-/// Makes the colours of vertices linear: by the inverse of sRGB's transfer function, IEC 61966-2-1.
+/// Makes the colours of vertices linear.
 fn linear(colors: &mut [[f32; 4]], surfaces: &BodySurfaces) {
-    if !surfaces.srgb_colors {
-        return;
-    }
-    for part in colors.iter_mut().flat_map(|color| &mut color[..3]) {
-        *part = match *part {
-            dark if dark <= 0.04045 => dark / 12.92,
-            bright => libm::powf((bright + 0.055) / 1.055, 2.4),
-        };
+    if surfaces.srgb_colors {
+        colors
+            .iter_mut()
+            .for_each(|color| *color = linear_color(*color));
     }
 }
 
