@@ -11,15 +11,14 @@ TILE = Path(__file__).parents[3] / "crates/frangible/tests/bodies/tile.frangible
 SIDES = np.array([0.1, 0.1, 0.006])
 
 
-def check(drawn: fr.Drawn, placed_uvs: bool = True) -> None:
+def check(drawn: fr.Drawn) -> None:
     outside = drawn.faces[~drawn.is_fracture_face]
     place = drawn.vertices / SIDES + 0.5
     used = np.unique(outside)
     assert drawn.colors is not None
     np.testing.assert_allclose(drawn.colors[used, :3], place[used], atol=0.02)
-    if placed_uvs:
-        np.testing.assert_allclose(drawn.uvs[0][used], place[used, :2], atol=0.02)
-        np.testing.assert_allclose(drawn.uvs[1][used], place[used, 1:] * [2, 1], atol=0.04)
+    np.testing.assert_allclose(drawn.uvs[0][used], place[used, :2], atol=0.02)
+    np.testing.assert_allclose(drawn.uvs[1][used], place[used, 1:] * [2, 1], atol=0.04)
     inside = np.unique(drawn.faces[drawn.is_fracture_face])
     assert (drawn.colors[inside] == 1).all()
     assert (drawn.material[drawn.is_fracture_face] == -1).all()

@@ -87,7 +87,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             found += 1;
             println!("{path} breaks the target");
         }
-        if number % 10_000 == 9_999 {
+        if number % 1_000 == 999 {
             let rate = (number + 1) as f64 / start.elapsed().as_secs_f64();
             println!(
                 "{} inputs, {rate:.0} in a second, {found} found",
