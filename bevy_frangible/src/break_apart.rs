@@ -9,7 +9,7 @@ use frangible::{Body, Fracture, ImpactReport, InputError, Outcome};
 
 use crate::again::{expect_pieces, expect_weaker};
 use crate::debris::remember;
-use crate::meshes::{faces, into, out};
+use crate::meshes::{Faces, Part, authored, faces, into, out};
 use crate::{
     Blow, Born, BreakFailed, BreakableBody, Broke, Broken, CrackFaces, Fracturing, FragmentOf,
     Held, Judges, OuterFaces, Pushed,
@@ -64,7 +64,7 @@ pub(crate) fn obey(
 pub(crate) struct Judged {
     pub(crate) outcome: Result<Outcome, InputError>,
     /// The outer and the crack faces of the fragments, where they are made already.
-    pub(crate) faces: Option<Vec<[Option<Mesh>; 2]>>,
+    pub(crate) faces: Option<Vec<Faces>>,
 }
 
 impl From<Result<Outcome, InputError>> for Judged {
@@ -161,14 +161,15 @@ pub(crate) fn replace(
     body: Option<&Body>,
     pose: Transform,
     fracture: &Arc<Fracture>,
-    made: Option<Vec<[Option<Mesh>; 2]>>,
+    made: Option<Vec<Faces>>,
 ) -> Vec<Entity> {
     // The entity may be despawned in the same frame: then its fragments go with it.
     commands
         .entity(entity)
         .try_remove::<(BreakableBody, Mesh3d)>()
         .try_insert(Broken);
-    let make = || in_parallel(&fracture.fragments, |fragment| faces(&fragment.mesh));
+    let surface = body.and_then(|body| authored(body.asset()));
+    let make = || in_parallel(&fracture.fragments, |fragment| faces(fragment, surface));
     let meshes = made.unwrap_or_else(make);
     let pieces: Vec<Entity> = (fracture.fragments.iter())
         .map(|fragment| {
@@ -216,17 +217,26 @@ fn strip(world: &mut World, entity: Entity) {
     }
 }
 
-fn give_faces(world: &mut World, piece: Entity, meshes: [Option<Mesh>; 2]) {
+fn give_faces(world: &mut World, piece: Entity, Faces { outer, crack }: Faces) {
+    for part in outer {
+        give_part(world, piece, part);
+    }
     let Some(mut known) = world.get_resource_mut::<Assets<Mesh>>() else {
         return;
     };
-    let [outer, crack] = meshes.map(|mesh| mesh.map(|mesh| Mesh3d(known.add(mesh))));
-    world.entity_mut(piece).with_children(|piece| {
-        if let Some(mesh) = outer {
-            piece.spawn((mesh, OuterFaces));
-        }
-        if let Some(mesh) = crack {
-            piece.spawn((mesh, CrackFaces));
-        }
-    });
+    if let Some(crack) = crack.map(|mesh| Mesh3d(known.add(mesh))) {
+        world.spawn((crack, CrackFaces, ChildOf(piece)));
+    }
+}
+
+/// Gives an entity outer faces as a child.
+pub(crate) fn give_part(world: &mut World, entity: Entity, (mesh, material): Part) {
+    let Some(mut known) = world.get_resource_mut::<Assets<Mesh>>() else {
+        return;
+    };
+    let mesh = Mesh3d(known.add(mesh));
+    let mut child = world.spawn((mesh, OuterFaces, ChildOf(entity)));
+    if let Some(material) = material {
+        child.insert((Name::new(material.name.clone()), material));
+    }
 }

@@ -3,9 +3,12 @@
 use bevy::asset::io::Reader;
 use bevy::asset::{AssetLoader, LoadContext};
 use bevy::prelude::*;
+use frangible::internals::asset::{Image, RenderMaterial};
 use frangible::internals::{AssetFileError, Fields};
 use frangible::{Asset as Baked, Breakable as Kind, InputError};
 use thiserror::Error;
+
+use crate::meshes::authored;
 
 /// A baked body, ready to be broken.
 #[derive(Asset, TypePath, Clone)]
@@ -19,6 +22,24 @@ impl FrangibleAsset {
     pub fn new(baked: Baked) -> Result<Self, InputError> {
         let fields = Fields::of_material(&baked.material);
         Ok(Self(Kind::new(baked)?.with_fields(fields)?))
+    }
+
+    /// Materials of the file that was baked, which are also those of fragments: their names, colours, emission, sides and textures.
+    #[must_use]
+    pub fn materials(&self) -> &[RenderMaterial] {
+        authored(self.0.asset()).map_or(&[], |surface| &surface.materials)
+    }
+
+    /// Files of the images of their textures, PNG and JPEG.
+    #[must_use]
+    pub fn images(&self) -> &[Image] {
+        authored(self.0.asset()).map_or(&[], |surface| &surface.images)
+    }
+
+    /// Name of the mesh in its file, which may be empty.
+    #[must_use]
+    pub fn mesh_name(&self) -> &str {
+        authored(self.0.asset()).map_or("", |surface| &surface.name)
     }
 }
 

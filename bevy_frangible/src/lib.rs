@@ -73,7 +73,7 @@ pub use frangible_rapier;
 pub use frangible_sound;
 #[cfg(feature = "gizmos")]
 pub use gizmos::{FrangibleGizmos, FrangibleGizmosPlugin, LastBlow};
-pub use looks::{Looks, LooksPlugin};
+pub use looks::{Looks, LooksOfFile, LooksPlugin};
 #[cfg(feature = "rapier")]
 pub use rapier::{FrangibleRapierPlugin, RapierBody, RapierWorld};
 #[cfg(feature = "sound")]
@@ -83,7 +83,7 @@ pub use sound::{Ears, FrangibleSoundPlugin, Heard};
 pub mod prelude {
     pub use crate::{
         AtRest, Blow, BreakAgain, BreakFailed, Breakable, Broke, DebrisBudget, FragmentOf,
-        Fragments, FrangibleAsset, FrangiblePlugin, Held, Looks, LooksPlugin, Seed,
+        Fragments, FrangibleAsset, FrangiblePlugin, Held, Looks, LooksOfFile, LooksPlugin, Seed,
     };
     #[cfg(feature = "avian")]
     pub use crate::{Breaking, ColliderDetail, FrangibleHooks, MadeOf};
@@ -143,9 +143,24 @@ impl Fragments {
 #[derive(Component, Clone, Copy)]
 pub(crate) struct Born(pub(crate) Duration);
 
-/// Marker of the mesh of a fragment's outer faces, a child of the fragment.
+/// Marker of a mesh of a fragment's outer faces, a child of the fragment: one, or one for each material of the body's file. Meshes have the vertex
+/// colours and the first two sets of texture coordinates of the file.
 #[derive(Component, Clone, Copy, Debug)]
 pub struct OuterFaces;
+
+/// Component of [`OuterFaces`] if the body's file has several materials: the one of these faces. Their entity also has its [`Name`].
+#[derive(Component, Clone, Debug, PartialEq, Eq)]
+pub struct MaterialOfFile {
+    /// Index into [`FrangibleAsset::materials`].
+    pub index: usize,
+    /// Name in the file, which may be empty.
+    pub name: String,
+}
+
+/// Marker of a body whose outer surface becomes a child with [`OuterFaces`] for each material of its file, in place of one mesh on its entity.
+/// [`LooksOfFile`] adds it.
+#[derive(Component, Clone, Copy, Debug, Default)]
+pub struct SplitByMaterial;
 
 /// Marker of the mesh of a fragment's crack faces, a child of the fragment.
 #[derive(Component, Clone, Copy, Debug)]

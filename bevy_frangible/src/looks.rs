@@ -2,7 +2,9 @@
 
 use bevy::prelude::*;
 
-use crate::{BreakableBody, Broke, CrackFaces, FragmentOf, OuterFaces};
+use crate::{
+    BreakableBody, Broke, CrackFaces, FragmentOf, MaterialOfFile, OuterFaces, SplitByMaterial,
+};
 
 /// Component with the appearance of a body and of the outer and crack faces of its fragments, usually a material:
 /// `Looks<MeshMaterial3d<StandardMaterial>>`. Insert it on the entity with [`Breakable`](crate::Breakable), and add a [`LooksPlugin`] for the
@@ -15,7 +17,14 @@ pub struct Looks<C: Component + Clone> {
     pub crack: C,
 }
 
-/// Plugin that applies [`Looks`] of a component to bodies and fragments.
+/// Component with an appearance for each material of the body's file, in the order of
+/// [`FrangibleAsset::materials`](crate::FrangibleAsset::materials): `LooksOfFile(vec![MeshMaterial3d(glaze), MeshMaterial3d(clay)])`. The faces of
+/// materials beyond the list have the outer look of [`Looks`], and so have all faces of a file with fewer than two materials.
+#[derive(Component, Clone, Debug)]
+#[require(SplitByMaterial)]
+pub struct LooksOfFile<C: Component + Clone>(pub Vec<C>);
+
+/// Plugin that applies [`Looks`] and [`LooksOfFile`] of a component to bodies and fragments.
 pub struct LooksPlugin<C>(std::marker::PhantomData<fn() -> C>);
 
 impl<C> Default for LooksPlugin<C> {
@@ -34,30 +43,64 @@ impl<C: Component + Clone> Plugin for LooksPlugin<C> {
 /// A body gets the look of its outer faces.
 fn dress_body<C: Component + Clone>(
     ready: On<Insert, BreakableBody>,
-    looks: Query<&Looks<C>, Without<FragmentOf>>,
+    looks: Query<(&Looks<C>, Option<&LooksOfFile<C>>), Without<FragmentOf>>,
     mut commands: Commands,
 ) {
-    if let Ok(looks) = looks.get(ready.entity) {
-        commands.entity(ready.entity).insert(looks.outer.clone());
-    }
+    let entity = ready.entity;
+    let Ok((looks, of_file)) = looks.get(entity) else {
+        return;
+    };
+    commands.entity(entity).insert(looks.outer.clone());
+    let (looks, of_file) = (looks.clone(), of_file.cloned());
+    // Its faces come with its body.
+    commands.queue(move |world: &mut World| {
+        let children = world.get::<Children>(entity);
+        let children: Vec<Entity> = children.into_iter().flat_map(|c| c.iter()).collect();
+        for child in children {
+            if world.get::<OuterFaces>(child).is_some() {
+                let material = world.get::<MaterialOfFile>(child);
+                let look = outer(&looks, of_file.as_ref(), material);
+                world.entity_mut(child).insert(look);
+            }
+        }
+    });
+}
+
+/// The look of outer faces of this material.
+fn outer<C: Component + Clone>(
+    looks: &Looks<C>,
+    of_file: Option<&LooksOfFile<C>>,
+    material: Option<&MaterialOfFile>,
+) -> C {
+    let own = of_file.zip(material);
+    let own = own.and_then(|(looks, material)| looks.0.get(material.index));
+    own.unwrap_or(&looks.outer).clone()
 }
 
 /// Fragments get the looks of their body, and keep them for their own fragments.
 fn dress_fragments<C: Component + Clone>(
     broke: On<Broke>,
-    looks: Query<&Looks<C>>,
+    looks: Query<(&Looks<C>, Option<&LooksOfFile<C>>)>,
     children: Query<&Children>,
-    (outer, crack): (Query<(), With<OuterFaces>>, Query<(), With<CrackFaces>>),
+    (outside, crack): (
+        Query<Option<&MaterialOfFile>, With<OuterFaces>>,
+        Query<(), With<CrackFaces>>,
+    ),
     mut commands: Commands,
 ) {
-    let Ok(looks) = looks.get(broke.entity) else {
+    let Ok((looks, of_file)) = looks.get(broke.entity) else {
         return;
     };
     for &fragment in &broke.fragments {
-        commands.entity(fragment).try_insert(looks.clone());
+        let mut piece = commands.entity(fragment);
+        piece.try_insert(looks.clone());
+        if let Some(of_file) = of_file {
+            piece.try_insert(of_file.clone());
+        }
         for child in children.iter_descendants(fragment) {
-            if outer.contains(child) {
-                commands.entity(child).try_insert(looks.outer.clone());
+            if let Ok(material) = outside.get(child) {
+                let look = outer(looks, of_file, material);
+                commands.entity(child).try_insert(look);
             } else if crack.contains(child) {
                 commands.entity(child).try_insert(looks.crack.clone());
             }

@@ -7,9 +7,10 @@ use bevy::asset::LoadState;
 use bevy::prelude::*;
 use frangible::{Asset as Baked, Breakable as Kind};
 
-use crate::meshes::whole;
+use crate::break_apart::give_part;
+use crate::meshes::{whole, whole_by_material};
 use crate::per_asset::PerAsset;
-use crate::{BreakFailed, Breakable, BreakableBody, Broken, FrangibleAsset, Seed};
+use crate::{BreakFailed, Breakable, BreakableBody, Broken, FrangibleAsset, Seed, SplitByMaterial};
 
 /// Scales that differ by less than this, relative to the largest, are meant to be equal.
 const ROUNDING: f32 = 1e-4;
@@ -65,7 +66,10 @@ fn refuse(commands: &mut Commands, entity: Entity, reason: String) {
 /// Entities whose asset is there get their body and mesh.
 pub(crate) fn make_ready(
     mut commands: Commands,
-    waiting: Query<(Entity, &Breakable, &Seed), (Without<BreakableBody>, Without<Broken>)>,
+    waiting: Query<
+        (Entity, &Breakable, &Seed, Has<SplitByMaterial>),
+        (Without<BreakableBody>, Without<Broken>),
+    >,
     places: TransformHelper,
     (assets, server): (Res<Assets<FrangibleAsset>>, Res<AssetServer>),
     mut meshes: ResMut<Assets<Mesh>>,
@@ -77,7 +81,7 @@ pub(crate) fn make_ready(
     }
     sizes.0.retain(|(id, _), _| assets.contains(*id));
     drawn.forget(&assets);
-    for (entity, breakable, seed) in &waiting {
+    for (entity, breakable, seed, split) in &waiting {
         let id = breakable.0.id();
         let Some(asset) = assets.get(id) else {
             if let LoadState::Failed(error) = server.load_state(id) {
@@ -97,10 +101,21 @@ pub(crate) fn make_ready(
         };
         // The entity's scale is on its mesh already.
         let baked = asset.0.asset();
-        let mesh = drawn.of(id, baked, || meshes.add(whole(baked)));
-        commands
-            .entity(entity)
-            .insert_if_new(Mesh3d(mesh))
-            .insert(BreakableBody(body));
+        let parts = match split {
+            true => whole_by_material(baked),
+            false => Vec::new(),
+        };
+        if parts.is_empty() {
+            let mesh = drawn.of(id, baked, || meshes.add(whole(baked)));
+            commands.entity(entity).insert_if_new(Mesh3d(mesh));
+        }
+        commands.queue(move |world: &mut World| {
+            if world.get_entity(entity).is_ok() {
+                for part in parts {
+                    give_part(world, entity, part);
+                }
+            }
+        });
+        commands.entity(entity).insert(BreakableBody(body));
     }
 }

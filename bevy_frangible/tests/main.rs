@@ -13,6 +13,8 @@ mod gizmos;
 #[cfg(feature = "avian")]
 mod held;
 #[cfg(feature = "avian")]
+mod looks;
+#[cfg(feature = "avian")]
 mod pieces;
 #[cfg(feature = "rapier")]
 mod rapier;

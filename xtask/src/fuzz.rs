@@ -21,7 +21,17 @@ const BOUNDS: [&str; 2] = ["-max_len=32768", "-rss_limit_mb=2048"];
 /// Longest time for one input, s; a slower one is a finding.
 const TIMEOUT: u64 = 10;
 /// Targets that break bodies, and longest time for one of their inputs, s: hundreds of pieces take seconds on a busy machine.
-const BREAKING: ([&str; 4], u64) = (["c_interface", "impact", "run_scene", "world"], 45);
+const BREAKING: ([&str; 6], u64) = (
+    [
+        "c_interface",
+        "impact",
+        "impact_small",
+        "run_scene",
+        "world",
+        "world_small",
+    ],
+    45,
+);
 
 /// Inputs up to so many bytes are printed whole where they are found, and as many letters of each line of a panic.
 const SHOWN: usize = 2048;

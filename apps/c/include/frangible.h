@@ -20,6 +20,71 @@
 #include <stdint.h>
 
 /**
+ * A surface is opaque, or blends with what is behind it if the opacity of its base colour is below 1.
+ */
+#define FRANGIBLE_BLENDING_AUTO 0
+
+/**
+ * A surface blends with what is behind it; opacities of textures and vertices count, too.
+ */
+#define FRANGIBLE_BLENDING_BLEND 1
+
+/**
+ * Points with less opacity than `alpha_cutoff` are not drawn, the others are opaque.
+ */
+#define FRANGIBLE_BLENDING_MASK 2
+
+/**
+ * Multiplies base colour and opacity; sRGB.
+ */
+#define FRANGIBLE_TEXTURE_BASE_COLOR 0
+
+/**
+ * Green multiplies the roughness, blue the metallic share.
+ */
+#define FRANGIBLE_TEXTURE_METALLIC_ROUGHNESS 1
+
+/**
+ * Normals in tangent space.
+ */
+#define FRANGIBLE_TEXTURE_NORMAL 2
+
+/**
+ * Red is the share of ambient light that arrives.
+ */
+#define FRANGIBLE_TEXTURE_OCCLUSION 3
+
+/**
+ * Multiplies the emitted light; sRGB.
+ */
+#define FRANGIBLE_TEXTURE_EMISSION 4
+
+/**
+ * Beyond its border an image begins anew.
+ */
+#define FRANGIBLE_WRAP_REPEAT 0
+
+/**
+ * Beyond its border an image's border goes on.
+ */
+#define FRANGIBLE_WRAP_CLAMP 1
+
+/**
+ * Beyond its border an image begins anew, mirrored.
+ */
+#define FRANGIBLE_WRAP_MIRROR 2
+
+/**
+ * Format of an image.
+ */
+#define FRANGIBLE_IMAGE_PNG 0
+
+/**
+ * Format of an image.
+ */
+#define FRANGIBLE_IMAGE_JPEG 1
+
+/**
  * Version of the header: a million times the major version, plus a thousand times the minor one, plus the patch. Compare it with
  * `frangible_version()`.
  */
@@ -322,6 +387,24 @@ typedef struct {
 } frangible_solid;
 
 /**
+ * Triangles of one look, see `frangible_breakable_look`.
+ */
+typedef struct {
+  /**
+   * First index.
+   */
+  size_t first;
+  /**
+   * Number of indices.
+   */
+  size_t count;
+  /**
+   * Number of the look.
+   */
+  size_t look;
+} frangible_group;
+
+/**
  * A mesh to draw, in the frame of the body or of the fragment: its origin is the centre of mass. The arrays are valid while the handle is.
  */
 typedef struct {
@@ -361,6 +444,26 @@ typedef struct {
    * The indices.
    */
   const uint32_t *indices;
+  /**
+   * Number of further sets of texture coordinates.
+   */
+  size_t more_uv_sets;
+  /**
+   * Those sets one after the other, two numbers per vertex each, zero on crack faces; null if there are none.
+   */
+  const float *more_uvs;
+  /**
+   * Linear red, green, blue and opacity of each vertex, white on crack faces; null if the mesh that was baked has no vertex colours.
+   */
+  const float *colors;
+  /**
+   * Number of groups.
+   */
+  size_t groups_count;
+  /**
+   * Ranges of the first `outer_indices` indices, one for each look; null if the mesh that was baked has no materials.
+   */
+  const frangible_group *groups;
 } frangible_geometry;
 
 /**
@@ -388,6 +491,154 @@ typedef struct {
    */
   const size_t *ends;
 } frangible_hulls;
+
+/**
+ * Looks of the mesh that was baked. Fragments have them, too.
+ */
+typedef struct {
+  /**
+   * sizeof(frangible_looks).
+   */
+  uint32_t size;
+  /**
+   * Zero.
+   */
+  uint32_t reserved;
+  /**
+   * Name of the mesh, UTF-8, which may be empty. The texts are valid while the handle is.
+   */
+  const char *name;
+  /**
+   * Number of looks, for `frangible_breakable_look`.
+   */
+  size_t looks;
+  /**
+   * Number of images, for `frangible_breakable_image`.
+   */
+  size_t images;
+} frangible_looks;
+
+/**
+ * A material of the mesh that was baked, in the metallic-roughness model of glTF 2.0.
+ */
+typedef struct {
+  /**
+   * sizeof(frangible_look).
+   */
+  uint32_t size;
+  /**
+   * 1 if triangles are seen from behind, too, else 0.
+   */
+  uint32_t double_sided;
+  /**
+   * Its name, UTF-8, which may be empty.
+   */
+  const char *name;
+  /**
+   * Linear red, green, blue and opacity.
+   */
+  float base_color[4];
+  /**
+   * Light that it emits: linear red, green and blue.
+   */
+  float emission[3];
+  /**
+   * 0 (dielectric) to 1 (metal).
+   */
+  float metallic;
+  /**
+   * 0 (mirror) to 1 (matt).
+   */
+  float roughness;
+  /**
+   * Opacity below which points are not drawn, of a FRANGIBLE_BLENDING_MASK.
+   */
+  float alpha_cutoff;
+  /**
+   * FRANGIBLE_BLENDING_AUTO, FRANGIBLE_BLENDING_BLEND or FRANGIBLE_BLENDING_MASK.
+   */
+  uint32_t blending;
+  /**
+   * Zero.
+   */
+  uint32_t reserved;
+  /**
+   * Number of textures, for `frangible_breakable_texture`.
+   */
+  size_t textures;
+} frangible_look;
+
+/**
+ * A texture of a look. Texture coordinates are scaled, rotated, then moved, as in `KHR_texture_transform`.
+ */
+typedef struct {
+  /**
+   * sizeof(frangible_texture).
+   */
+  uint32_t size;
+  /**
+   * FRANGIBLE_TEXTURE_BASE_COLOR and so on.
+   */
+  uint32_t slot;
+  /**
+   * Number of its image.
+   */
+  size_t image;
+  /**
+   * Set of texture coordinates: 0 is `uvs`, 1 the first of `more_uvs`.
+   */
+  uint32_t uv_set;
+  /**
+   * FRANGIBLE_WRAP_REPEAT, FRANGIBLE_WRAP_CLAMP or FRANGIBLE_WRAP_MIRROR, along u and v.
+   */
+  uint32_t wrap[2];
+  /**
+   * 1 if texels keep hard edges when they are enlarged, else 0.
+   */
+  uint32_t pixelated;
+  /**
+   * Scale of normals, or strength of occlusion; 1 for the others.
+   */
+  float strength;
+  /**
+   * Shift of the origin of the texture coordinates.
+   */
+  float offset[2];
+  /**
+   * Counter-clockwise, rad.
+   */
+  float rotation;
+  /**
+   * Along u and v.
+   */
+  float scale[2];
+} frangible_texture;
+
+/**
+ * A file of an image. The bytes are valid while the handle is.
+ */
+typedef struct {
+  /**
+   * sizeof(frangible_image).
+   */
+  uint32_t size;
+  /**
+   * FRANGIBLE_IMAGE_PNG or FRANGIBLE_IMAGE_JPEG.
+   */
+  uint32_t kind;
+  /**
+   * Its name, UTF-8, which may be empty.
+   */
+  const char *name;
+  /**
+   * Bytes of the file.
+   */
+  const uint8_t *bytes;
+  /**
+   * Number of bytes.
+   */
+  size_t length;
+} frangible_image;
 
 /**
  * Result of a blow.
@@ -634,6 +885,29 @@ frangible_status frangible_breakable_hulls(frangible_breakable breakable, frangi
  * to the library. It is valid until the next call of this thread that fails, and until the thread ends.
  */
 const char *frangible_error_text(void);
+
+/**
+ * Tells the name of the mesh that was baked, and how many looks and images it has.
+ */
+frangible_status frangible_breakable_looks(frangible_breakable breakable, frangible_looks *out);
+
+/**
+ * Gives a look, a material of the mesh that was baked.
+ */
+frangible_status frangible_breakable_look(frangible_breakable breakable, size_t look, frangible_look *out);
+
+/**
+ * Gives a texture of a look.
+ */
+frangible_status frangible_breakable_texture(frangible_breakable breakable,
+                                             size_t look,
+                                             size_t index,
+                                             frangible_texture *out);
+
+/**
+ * Gives the file of an image.
+ */
+frangible_status frangible_breakable_image(frangible_breakable breakable, size_t image, frangible_image *out);
 
 /**
  * Frees an outcome, and the arrays that it gave. A handle of zero is left alone.

@@ -6,15 +6,49 @@ use frangible::glam::DQuat;
 use frangible::internals::MassProperties;
 use frangible::internals::mesh::symmetric_eigen;
 use frangible::{Asset, Fragment};
-use frangible_js::plain::{Drawn, hulls_of_body, hulls_of_fragment};
+use frangible_js::drawn::Drawn;
+use frangible_js::hulls::{hulls_of_body, hulls_of_fragment};
 
-use crate::types::{frangible_geometry, frangible_hulls, frangible_solid};
+use crate::types::{frangible_geometry, frangible_group, frangible_hulls, frangible_solid};
 
 /// Convex parts, one after the other.
 #[derive(Debug, Default)]
 struct Hulls {
     points: Vec<f32>,
     ends: Vec<usize>,
+}
+
+/// A mesh to draw.
+#[derive(Debug, Default)]
+struct Mesh {
+    drawn: Drawn,
+    /// Its further texture coordinates, one set after the other.
+    more_uvs: Vec<f32>,
+    groups: Vec<frangible_group>,
+}
+
+impl From<Drawn> for Mesh {
+    fn from(drawn: Drawn) -> Self {
+        let groups = drawn.groups.iter().map(|group| frangible_group {
+            first: group.first,
+            count: group.count,
+            look: group.material as usize,
+        });
+        Self {
+            more_uvs: drawn.more_uvs.concat(),
+            groups: groups.collect(),
+            drawn,
+        }
+    }
+}
+
+/// The array, or null if it is empty.
+fn or_null<T>(list: &[T]) -> *const T {
+    if list.is_empty() {
+        std::ptr::null()
+    } else {
+        list.as_ptr()
+    }
 }
 
 /// A closed surface.
@@ -28,7 +62,7 @@ struct Surface {
 /// Arrays of a kind or of a fragment. Each is made when it is first asked for, and stays where it is until its handle is freed.
 #[derive(Debug, Default)]
 pub(crate) struct Arrays {
-    drawn: OnceLock<Drawn>,
+    mesh: OnceLock<Mesh>,
     hulls: OnceLock<Hulls>,
     surface: OnceLock<Surface>,
 }
@@ -38,17 +72,18 @@ pub(crate) struct Arrays {
 pub(crate) enum Whose<'a> {
     /// A whole body.
     Body(&'a Asset),
-    /// A fragment.
-    Fragment(&'a Fragment),
+    /// A fragment of a body.
+    Fragment(&'a Asset, &'a Fragment),
 }
 
 impl Arrays {
     /// The mesh to draw.
     pub(crate) fn geometry(&self, whose: Whose<'_>) -> frangible_geometry {
-        let drawn = self.drawn.get_or_init(|| match whose {
-            Whose::Body(asset) => Drawn::whole(asset),
-            Whose::Fragment(fragment) => Drawn::fragment(fragment),
+        let mesh = self.mesh.get_or_init(|| match whose {
+            Whose::Body(asset) => Drawn::whole(asset).into(),
+            Whose::Fragment(asset, fragment) => Drawn::fragment(asset, fragment).into(),
         });
+        let drawn = &mesh.drawn;
         frangible_geometry {
             vertices: drawn.positions.len() / 3,
             positions: drawn.positions.as_ptr(),
@@ -57,6 +92,11 @@ impl Arrays {
             indices_count: drawn.indices.len(),
             outer_indices: drawn.outer_indices,
             indices: drawn.indices.as_ptr(),
+            more_uv_sets: drawn.more_uvs.len(),
+            more_uvs: or_null(&mesh.more_uvs),
+            colors: or_null(&drawn.colors),
+            groups_count: mesh.groups.len(),
+            groups: or_null(&mesh.groups),
             ..Default::default()
         }
     }
@@ -67,7 +107,7 @@ impl Arrays {
             let mut hulls = Hulls::default();
             let parts = match whose {
                 Whose::Body(asset) => hulls_of_body(asset),
-                Whose::Fragment(fragment) => hulls_of_fragment(fragment),
+                Whose::Fragment(_, fragment) => hulls_of_fragment(fragment),
             };
             for part in parts {
                 hulls.points.extend(part);

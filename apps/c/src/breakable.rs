@@ -8,6 +8,7 @@ use frangible_js::plain;
 
 use crate::arrays::{Arrays, Whose, solid};
 use crate::entry::{Failure, entry, frangible_status};
+use crate::looks::Names;
 use crate::memory::{Form, Place, bytes, text};
 use crate::registry::Registry;
 use crate::types::{
@@ -19,7 +20,13 @@ pub(crate) struct Kind {
     pub(crate) breakable: Breakable,
     name: CString,
     material: CString,
+    pub(crate) names: Names,
     arrays: Arrays,
+}
+
+/// A text as C has it.
+pub(crate) fn c_text(text: &str) -> CString {
+    CString::new(text.replace('\0', " ")).unwrap_or_default()
 }
 
 pub(crate) static BREAKABLES: Registry<Kind> = Registry::new("a breakable");
@@ -27,11 +34,11 @@ pub(crate) static BREAKABLES: Registry<Kind> = Registry::new("a breakable");
 impl Kind {
     fn new(breakable: Breakable) -> Self {
         let asset = breakable.asset();
-        let text = |text: &str| CString::new(text.replace('\0', " ")).unwrap_or_default();
-        let (name, material) = (text(&asset.name), text(&asset.material.name));
+        let (name, material) = (c_text(&asset.name), c_text(&asset.material.name));
         Self {
             name,
             material,
+            names: Names::of(asset),
             arrays: Arrays::default(),
             breakable,
         }

@@ -191,7 +191,7 @@ pub unsafe extern "C" fn frangible_outcome_geometry(
         let out = unsafe { Form::new(out, "out") }?;
         let came = OUTCOMES.get(outcome.id)?;
         let (fragment, arrays) = came.fragment(fragment)?;
-        out.fill(&arrays.geometry(Whose::Fragment(fragment)));
+        out.fill(&arrays.geometry(Whose::Fragment(&came.asset, fragment)));
         Ok(())
     })
 }
@@ -225,7 +225,7 @@ pub unsafe extern "C" fn frangible_outcome_hulls(
         let out = unsafe { Form::new(out, "out") }?;
         let came = OUTCOMES.get(outcome.id)?;
         let (fragment, arrays) = came.fragment(fragment)?;
-        out.fill(&arrays.hulls(Whose::Fragment(fragment)));
+        out.fill(&arrays.hulls(Whose::Fragment(&came.asset, fragment)));
         Ok(())
     })
 }

@@ -182,6 +182,28 @@ pub struct frangible_geometry {
     pub outer_indices: usize,
     /// The indices.
     pub indices: *const u32,
+    /// Number of further sets of texture coordinates.
+    pub more_uv_sets: usize,
+    /// Those sets one after the other, two numbers per vertex each, zero on crack faces; null if there are none.
+    pub more_uvs: *const f32,
+    /// Linear red, green, blue and opacity of each vertex, white on crack faces; null if the mesh that was baked has no vertex colours.
+    pub colors: *const f32,
+    /// Number of groups.
+    pub groups_count: usize,
+    /// Ranges of the first `outer_indices` indices, one for each look; null if the mesh that was baked has no materials.
+    pub groups: *const frangible_group,
+}
+
+/// Triangles of one look, see `frangible_breakable_look`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct frangible_group {
+    /// First index.
+    pub first: usize,
+    /// Number of indices.
+    pub count: usize,
+    /// Number of the look.
+    pub look: usize,
 }
 
 /// Convex parts for colliders, in the frame of the body or of the fragment. The arrays are valid while the handle is.
@@ -292,6 +314,8 @@ macro_rules! sized {
         )*
     };
 }
+
+pub(crate) use sized;
 
 sized! {
     frangible_striker

@@ -28,6 +28,7 @@ fn the_header_declares_every_exported_function_and_no_other() {
         "body",
         "breakable",
         "entry",
+        "looks",
         "outcome",
         "registry",
         "types",

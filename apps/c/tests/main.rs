@@ -9,6 +9,7 @@
 mod blows;
 mod border;
 mod header;
+mod looks;
 mod outcomes;
 
 use std::ffi::CStr;
@@ -19,6 +20,8 @@ use frangible_c::*;
 const PANE: &[u8] = include_bytes!("../../../crates/frangible/tests/bodies/pane.frangible");
 
 const BLOCK: &[u8] = include_bytes!("../../../crates/frangible/tests/bodies/block.frangible");
+
+const TILE: &[u8] = include_bytes!("../../../crates/frangible/tests/bodies/tile.frangible");
 
 /// The text of the last failure of this thread.
 fn text() -> String {

@@ -8,8 +8,8 @@ use frangible::internals::Fields;
 use frangible_export::{GlbOptions, write_glb_with};
 use frangible_recording::write_atomically;
 use frangible_scenes::{
-    BakedBody, BodySpec, Drawing, Opened, Run, Scene, Sounded, Sounding, bake_opened, open_scene,
-    play, sound, sound_config,
+    BakedBody, BodySpec, Drawing, Opened, Run, Scene, Simplified, Sounded, Sounding, TOLERANCE,
+    bake_opened, open_scene, play, sound, sound_config,
 };
 
 use crate::args::BreakArgs;
@@ -58,7 +58,7 @@ pub(crate) fn run(file: Option<&Path>, args: &BreakArgs) -> Result<(), Box<dyn E
     };
     stages.extend(stages_of(run));
     notes.extend(missed(run));
-    notes.extend(lighter(run));
+    notes.extend(lighter(&run.simplified));
 
     let (mut files, mut heard) = (Vec::new(), None);
     let mut write = |name: String, bytes: &[u8]| -> Result<(), Box<dyn Error>> {
@@ -151,11 +151,18 @@ fn missed(run: &Run) -> Option<String> {
 }
 
 /// Note on what a light drawing has left.
-fn lighter(run: &Run) -> Option<String> {
-    let drawn = &run.simplified;
+fn lighter(drawn: &Simplified) -> Option<String> {
     (drawn.full > 0).then(|| {
+        let more = match drawn.light > drawn.wanted {
+            true => format!(
+                "; the aim of {} cannot be met within {:.1} %",
+                drawn.wanted,
+                100.0 * TOLERANCE
+            ),
+            false => String::new(),
+        };
         format!(
-            "light drawing: {} triangles of pieces instead of {}, at most {:.3} mm away ({:.2} % of the body), without cracks that end inside",
+            "light drawing: {} triangles of pieces instead of {}, at most {:.3} mm away ({:.2} % of the body), without cracks that end inside{more}",
             drawn.light,
             drawn.full,
             1e3 * drawn.error,
@@ -311,4 +318,33 @@ fn bodies_of(scene: &Scene, baked: &[BakedBody], run: &Run) -> Vec<BodyReport> {
         .enumerate()
         .map(|(i, (body, baked))| BodyReport::new(&body.name, baked, run, i))
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use frangible_scenes::Simplified;
+
+    use super::lighter;
+
+    #[test]
+    fn a_light_drawing_with_more_triangles_than_wanted_says_so() {
+        let mut drawn = Simplified {
+            full: 9000,
+            light: 1200,
+            wanted: 1200,
+            error: 1e-3,
+            share: 5e-3,
+        };
+        let note = lighter(&drawn).expect("a note");
+        assert!(note.starts_with("light drawing: 1200 triangles of pieces instead of 9000"));
+        assert!(!note.contains("aim"), "{note}");
+        drawn.light = 1201;
+        let note = lighter(&drawn).expect("a note");
+        assert!(note.contains("1201 triangles"), "{note}");
+        assert!(
+            note.ends_with("; the aim of 1200 cannot be met within 0.5 %"),
+            "{note}"
+        );
+        assert_eq!(lighter(&Simplified::default()), None);
+    }
 }

@@ -4,7 +4,8 @@
 use std::path::Path;
 
 use frangible::{Asset, FractureConfig, Outcome, impact};
-use frangible_js::plain::{self, Drawn};
+use frangible_js::drawn::Drawn;
+use frangible_js::plain;
 
 /// File, and the contact that the test describes in its own words.
 fn blows() -> [(&'static str, [f64; plain::CONTACT]); 2] {
@@ -45,7 +46,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         };
         let mut bytes: Vec<u8> = Vec::new();
         for fragment in &fracture.fragments {
-            let drawn = Drawn::fragment(fragment);
+            let drawn = Drawn::fragment(kind.asset(), fragment);
             bytes.extend(drawn.positions.iter().flat_map(|x| x.to_le_bytes()));
             bytes.extend(drawn.indices.iter().flat_map(|x| x.to_le_bytes()));
             bytes.extend(fragment.mass.mass.to_le_bytes());

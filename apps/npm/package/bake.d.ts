@@ -1,8 +1,22 @@
 import type { BufferGeometry } from 'three';
 import type { Breakable } from './index.js';
 
-/** A mesh of triangles that enclose a volume. Split or duplicate vertices, duplicate or inverted faces, and holes are repaired. */
-export type MeshInput = BufferGeometry | { positions: ArrayLike<number>; indices?: ArrayLike<number>; normals?: ArrayLike<number>; uvs?: ArrayLike<number> };
+/**
+ * A mesh of triangles that enclose a volume. Split or duplicate vertices, duplicate or inverted faces, and holes are repaired. Pieces keep normals, all
+ * sets of texture coordinates (`uv`, `uv1`, `uv2`, `uv3`), vertex colours, and the material index of each group; tangents are not kept.
+ */
+export type MeshInput = BufferGeometry | {
+  positions: ArrayLike<number>;
+  indices?: ArrayLike<number>;
+  normals?: ArrayLike<number>;
+  uvs?: ArrayLike<number>;
+  /** Further sets of texture coordinates, two numbers per vertex. */
+  moreUvs?: ArrayLike<number>[];
+  /** Linear colours of the vertices, three or four numbers each, 0 to 1. */
+  colors?: ArrayLike<number> & Iterable<number>;
+  /** Ranges of indices with the number of their material. */
+  groups?: { start: number; count: number; material: number }[];
+};
 
 export interface BakeOptions {
   /** Name of the material, default `'glass'`, with handling damage; `'glass-new'` and `'glass-abraded'` differ in their surface. Strength scatters as given by the material. */

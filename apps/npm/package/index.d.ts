@@ -44,9 +44,55 @@ export interface Geometry {
   normals: Float32Array;
   /** Texture coordinates: those of the mesh on the original surface, if it has any; elsewhere a box projection, in metres. */
   uvs: Float32Array;
+  /** Further sets of texture coordinates of the mesh; zero on crack faces. */
+  moreUvs: Float32Array[];
+  /** Linear red, green, blue and opacity of each vertex, if the mesh has vertex colours; white on crack faces. */
+  colors?: Float32Array;
   indices: Uint32Array;
   /** Number of leading indices that belong to the body's original surface. */
   outerIndices: number;
+  /** Materials of the original surface, as indices into `looks.materials`; empty if the mesh has none. */
+  groups: { start: number; count: number; material: number }[];
+}
+
+/** Looks of the mesh that was baked: they are also those of the original surface of each fragment. */
+export interface Looks {
+  /** Name of the mesh, which may be empty. */
+  name: string;
+  materials: Look[];
+  /** Files of the images of the textures. */
+  images: { name: string; type: 'image/png' | 'image/jpeg'; bytes: Uint8Array }[];
+}
+
+/** A material in the metallic-roughness model of glTF 2.0. */
+export interface Look {
+  name: string;
+  /** Linear red, green, blue and opacity. */
+  baseColor: [number, number, number, number];
+  metallic: number;
+  roughness: number;
+  /** Linear red, green and blue of the emitted light. */
+  emission: [number, number, number];
+  doubleSided: boolean;
+  /** `'auto'` blends if the base colour has an opacity below 1; `'mask'` leaves out points below `alphaCutoff`. */
+  blending: 'auto' | 'blend' | 'mask';
+  alphaCutoff?: number;
+  textures: LookTexture[];
+}
+
+/** A texture of a material; offset, rotation and scale are those of `KHR_texture_transform`. */
+export interface LookTexture {
+  slot: 'baseColor' | 'metallicRoughness' | 'normal' | 'occlusion' | 'emission';
+  /** Index into `looks.images`. */
+  image: number;
+  /** Set of texture coordinates: 0 is `uvs`, 1 the first of `moreUvs`. */
+  uvSet: number;
+  wrap: ['repeat' | 'clamp' | 'mirror', 'repeat' | 'clamp' | 'mirror'];
+  pixelated: boolean;
+  strength: number;
+  offset: [number, number];
+  rotation: number;
+  scale: [number, number];
 }
 
 /** Properties that bodies and fragments share. */
@@ -156,6 +202,8 @@ export class Breakable implements Solid {
   static load(source: string | URL | Uint8Array | ArrayBuffer | Response, options?: { module?: WebAssembly.Module | string | URL | Response; again?: boolean }): Promise<Breakable>;
   readonly name: string;
   readonly material: string;
+  /** Name, materials and images of the mesh that was baked; undefined if it was made without one. */
+  readonly looks?: Looks;
   readonly mass: number;
   readonly volume: number;
   readonly centre: Float64Array;

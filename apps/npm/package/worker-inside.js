@@ -51,7 +51,7 @@ async function answer({ id, what, values }) {
 /** The buffers of fragment arrays, which are transferred instead of copied. */
 function buffers({ fragments = [] } = {}) {
   const views = fragments.filter(({ hulls }) => hulls).flatMap(({ centre, inertia, hulls, geometry, solid }) => [
-    centre, inertia, ...hulls, ...Object.values(geometry), ...Object.values(solid),
+    centre, inertia, ...hulls, ...geometry.moreUvs, ...Object.values(geometry), ...Object.values(solid),
   ]);
   return [...new Set(views.filter(ArrayBuffer.isView).map(({ buffer }) => buffer))];
 }

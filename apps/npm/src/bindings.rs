@@ -5,7 +5,10 @@ use frangible::{Asset, Body, Breakable, Fracture, FractureConfig, Material, Outc
 use js_sys::{Array, Float32Array, Float64Array, Object, Reflect, Uint32Array};
 use wasm_bindgen::prelude::*;
 
-use crate::plain::{self, Drawn};
+use crate::drawn::{Drawn, Group, authored};
+use crate::hulls::{hulls_of_body, hulls_of_fragment};
+use crate::looks::looks;
+use crate::plain;
 
 /// Plane-strain modulus, Pa, crushing pressure, Pa, and coefficient of restitution of a named material.
 ///
@@ -56,7 +59,10 @@ impl Kind {
         set(&object, "strength", asset.material.strength);
         set(&object, "supported", asset.is_supported());
         set(&object, "geometry", drawn(&Drawn::whole(asset)));
-        set(&object, "hulls", hulls(plain::hulls_of_body(asset)));
+        set(&object, "hulls", hulls(hulls_of_body(asset)));
+        if let Some(surface) = authored(asset) {
+            set(&object, "looks", looks(surface));
+        }
         object
     }
 
@@ -157,7 +163,9 @@ impl Break {
         let contacts: Array = report.contacts.iter().map(contact).collect();
         set(&numbers, "contacts", contacts);
         set(&object, "report", numbers);
-        let fragments: Array = self.fracture.fragments.iter().map(fragment).collect();
+        let asset = self.body.asset();
+        let fragments = self.fracture.fragments.iter();
+        let fragments: Array = fragments.map(|f| fragment(asset, f)).collect();
         set(&object, "fragments", fragments);
         object
     }
@@ -195,12 +203,16 @@ fn contact(report: &frangible::internals::outcome::ContactReport) -> JsValue {
     object.into()
 }
 
-fn fragment(fragment: &frangible::Fragment) -> JsValue {
+fn fragment(asset: &Asset, fragment: &frangible::Fragment) -> JsValue {
     let object = Object::new();
     masses(&object, &fragment.mass);
     set(&object, "supported", fragment.supported);
-    set(&object, "geometry", drawn(&Drawn::fragment(fragment)));
-    set(&object, "hulls", hulls(plain::hulls_of_fragment(fragment)));
+    set(
+        &object,
+        "geometry",
+        drawn(&Drawn::fragment(asset, fragment)),
+    );
+    set(&object, "hulls", hulls(hulls_of_fragment(fragment)));
     let solid = Object::new();
     let positions: Vec<f32> = fragment
         .mesh
@@ -239,6 +251,23 @@ fn drawn(mesh: &Drawn) -> Object {
     );
     set(&object, "normals", Float32Array::from(&mesh.normals[..]));
     set(&object, "uvs", Float32Array::from(&mesh.uvs[..]));
+    let more = mesh.more_uvs.iter().map(|uvs| Float32Array::from(&uvs[..]));
+    set(&object, "moreUvs", more.collect::<Array>());
+    if !mesh.colors.is_empty() {
+        set(&object, "colors", Float32Array::from(&mesh.colors[..]));
+    }
+    let group = |group: &Group| {
+        let object = Object::new();
+        set(&object, "start", group.first as f64);
+        set(&object, "count", group.count as f64);
+        set(&object, "material", group.material);
+        object
+    };
+    set(
+        &object,
+        "groups",
+        mesh.groups.iter().map(group).collect::<Array>(),
+    );
     set(&object, "indices", Uint32Array::from(&mesh.indices[..]));
     set(&object, "outerIndices", mesh.outer_indices as f64);
     object
@@ -251,7 +280,7 @@ fn hulls(hulls: Vec<Vec<f32>>) -> Array {
         .collect()
 }
 
-fn set(object: &Object, name: &str, value: impl Into<JsValue>) {
+pub(crate) fn set(object: &Object, name: &str, value: impl Into<JsValue>) {
     // It fails on frozen objects only, and this one is new.
     let _ = Reflect::set(object, &name.into(), &value.into());
 }

@@ -1,15 +1,12 @@
-//! Contacts, render meshes, colliders and motions as rows of numbers.
+//! Contacts and motions as rows of numbers.
 
 use frangible::glam::{DMat3, DQuat, DVec3, Vec3};
-use frangible::internals::mesh::{merged_parts, thinned};
 use frangible::internals::outcome::ContactReport;
 use frangible::internals::rigid::{
     Kick, Rigid, fly_through, nearest_first, take_blow, take_energy, take_held,
 };
-use frangible::internals::{Fields, MassProperties, RenderMesh, box_projection};
-use frangible::{
-    Asset, Breakable, Contact, Fracture, Fragment, ImpactReport, InputError, Striker, TriMesh,
-};
+use frangible::internals::{Fields, MassProperties};
+use frangible::{Asset, Breakable, Contact, Fracture, ImpactReport, InputError, Striker};
 
 /// Numbers of a contact: point, direction of the push (m, body frame), speed of approach (m/s), one over the striker's mass at the contact
 /// (1/kg), its radius of curvature (m), plane-strain modulus (Pa), crushing pressure (Pa), coefficient of restitution; then of a scripted push
@@ -25,9 +22,6 @@ pub const MOTION: usize = 6;
 /// Numbers of a striker: mass (kg), position of its centre of mass (m), moments of inertia about it (kg·m², world axes, column by column),
 /// and its [`MOTION`].
 pub const STRIKER: usize = 1 + 3 + 9 + MOTION;
-
-/// Convex parts of a collider at most, and points of each.
-const PARTS: [usize; 2] = [8, 32];
 
 fn vec(numbers: &[f64]) -> Vec3 {
     double(numbers).as_vec3()
@@ -63,174 +57,6 @@ pub fn contacts(rows: &[f64]) -> Vec<Contact> {
         Contact::strike(point, push, row[6] as f32, striker)
     };
     rows.chunks_exact(CONTACT).map(contact).collect()
-}
-
-/// A render mesh. Vertices with equal position, normal and texture coordinates are shared.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Drawn {
-    /// Positions, three numbers per vertex, m.
-    pub positions: Vec<f32>,
-    /// Unit normals.
-    pub normals: Vec<f32>,
-    /// Texture coordinates, two per vertex.
-    pub uvs: Vec<f32>,
-    /// Three indices per triangle, counter-clockwise seen from outside; those of the body's original surface first.
-    pub indices: Vec<u32>,
-    /// Number of indices that belong to the body's original surface; the rest are crack faces.
-    pub outer_indices: usize,
-}
-
-impl Drawn {
-    /// The surface of a whole body, in its body frame.
-    #[must_use]
-    pub fn whole(asset: &Asset) -> Self {
-        let mut sheet;
-        match &asset.render {
-            Some(surface) => {
-                sheet = Sheet::new(surface.positions.len(), Vec3::ZERO);
-                for (triangle, normals) in surface.triangles.iter().zip(surface.corner_normals()) {
-                    let uvs = (!surface.uvs.is_empty())
-                        .then(|| triangle.map(|v| surface.uvs[v as usize]));
-                    sheet.add(&surface.positions, *triangle, normals, uvs);
-                }
-            }
-            None => {
-                let positions = asset.surface_positions();
-                sheet = Sheet::new(positions.len(), Vec3::ZERO);
-                let corners = asset.surface.triangles.iter().zip(&asset.surface.normals);
-                for (triangle, normals) in corners {
-                    sheet.add(positions, *triangle, *normals, None);
-                }
-            }
-        }
-        sheet.drawn.outer_indices = sheet.drawn.indices.len();
-        sheet.drawn
-    }
-
-    /// The surface of a fragment, in its own frame. Cracks inside it are drawn from both sides.
-    #[must_use]
-    pub fn fragment(fragment: &Fragment) -> Self {
-        match &fragment.render {
-            Some(render) => Self::rendered(render),
-            None => Self::closed(&fragment.mesh, fragment.mass.centre.as_vec3()),
-        }
-    }
-
-    fn rendered(mesh: &RenderMesh) -> Self {
-        let mut drawn = Self::default();
-        for ((place, normal), uv) in mesh.positions.iter().zip(&mesh.normals).zip(&mesh.uvs) {
-            drawn.vertex(*place, *normal, *uv);
-        }
-        drawn.indices = mesh.triangles.as_flattened().to_vec();
-        drawn.outer_indices = 3 * mesh.outer_triangles;
-        drawn
-    }
-
-    fn closed(mesh: &TriMesh, centre: Vec3) -> Self {
-        let mut sheet = Sheet::new(mesh.positions.len(), centre);
-        for (number, (triangle, normals)) in mesh.triangles.iter().zip(&mesh.normals).enumerate() {
-            if number == mesh.outer_triangles {
-                sheet.drawn.outer_indices = sheet.drawn.indices.len();
-            }
-            sheet.add(&mesh.positions, *triangle, *normals, None);
-        }
-        if mesh.outer_triangles == mesh.triangles.len() {
-            sheet.drawn.outer_indices = sheet.drawn.indices.len();
-        }
-        let mut drawn = sheet.drawn;
-        for &[a, b, c] in &mesh.cracks {
-            let normal = (b - a).cross(c - a).normalize_or_zero();
-            for (corners, normal) in [([a, b, c], normal), ([a, c, b], -normal)] {
-                for place in corners {
-                    let next = drawn.vertex(place, normal, box_projection(place + centre, normal));
-                    drawn.indices.push(next);
-                }
-            }
-        }
-        drawn
-    }
-
-    fn vertex(&mut self, place: Vec3, normal: Vec3, uv: [f32; 2]) -> u32 {
-        let number = self.positions.len() / 3;
-        self.positions.extend(place.to_array());
-        self.normals.extend(normal.to_array());
-        self.uvs.extend(uv);
-        number as u32
-    }
-}
-
-/// A surface whose corners are put together where they are alike.
-struct Sheet {
-    drawn: Drawn,
-    /// The surface's centre in the frame of the projection, m.
-    centre: Vec3,
-    /// Drawn vertices of each vertex of the surface.
-    of_vertex: Vec<Vec<u32>>,
-}
-
-impl Sheet {
-    fn new(vertices: usize, centre: Vec3) -> Self {
-        Self {
-            drawn: Drawn::default(),
-            centre,
-            of_vertex: vec![Vec::new(); vertices],
-        }
-    }
-
-    /// Adds a triangle with its corners' normals and texture coordinates; none: by box projection.
-    fn add(
-        &mut self,
-        positions: &[Vec3],
-        triangle: [u32; 3],
-        normals: [Vec3; 3],
-        uvs: Option<[[f32; 2]; 3]>,
-    ) {
-        let places = triangle.map(|v| positions[v as usize]);
-        let across = (places[1] - places[0]).cross(places[2] - places[0]);
-        let uvs = uvs.unwrap_or_else(|| places.map(|p| box_projection(p + self.centre, across)));
-        for (k, v) in triangle.into_iter().enumerate() {
-            let known = &mut self.of_vertex[v as usize];
-            let drawn = &mut self.drawn;
-            let same = |&&i: &&u32| {
-                let i = i as usize;
-                drawn.normals[3 * i..][..3] == normals[k].to_array()
-                    && drawn.uvs[2 * i..][..2] == uvs[k]
-            };
-            let index = known.iter().find(same).copied().unwrap_or_else(|| {
-                let next = drawn.vertex(places[k], normals[k], uvs[k]);
-                known.push(next);
-                next
-            });
-            drawn.indices.push(index);
-        }
-    }
-}
-
-/// Convex parts of a whole body, points in its body frame, m.
-#[must_use]
-pub fn hulls_of_body(asset: &Asset) -> Vec<Vec<f32>> {
-    hulls(asset.cells.iter().map(|cell| &cell.points[..]).collect())
-}
-
-/// Convex parts of a fragment, points in its own frame, m.
-#[must_use]
-pub fn hulls_of_fragment(fragment: &Fragment) -> Vec<Vec<f32>> {
-    let shares = fragment.cell_shares.iter();
-    hulls(shares.map(|(_, points)| &points[..]).collect())
-}
-
-fn hulls(parts: Vec<&[Vec3]>) -> Vec<Vec<f32>> {
-    let [parts_at_most, points] = PARTS;
-    let numbers = |part: Vec<Vec3>| -> Vec<f32> {
-        let part = thinned(&part, points);
-        part.iter().flat_map(|p| p.to_array()).collect()
-    };
-    let merged = merged_parts(parts, parts_at_most);
-    merged
-        .into_iter()
-        .map(numbers)
-        .filter(|part| part.len() >= 12)
-        .collect()
 }
 
 /// A body in the world: its pose, its motion just before a blow, and whether it is held.

@@ -35,6 +35,7 @@ await refusedFiles();
 await piecesBreakAgain();
 await inAWorker();
 await baked();
+await looks();
 console.log('npm: errors name what is wrong, a worker gives the same pieces and its end rejects what waits');
 
 function hashOf(outcome) {
@@ -175,6 +176,56 @@ async function baked() {
   const torus = await workshop.load(bytes);
   await workshop.close();
   console.log(`npm: a ring baked in a worker of Node in ${((performance.now() - begin) / 1e3).toFixed(1)} s: ${(1e3 * torus.mass).toFixed(0)} g, ${(bytes.length / 1e3).toFixed(0)} kB`);
+}
+
+/** A tile whose colours are (x, y, z) over its sides, its second texture coordinates (2 y, z); the front is glazed. */
+async function looks() {
+  const { DoubleSide } = await import('three');
+  const { materials, meshes } = await import('frangible/three');
+  const tile = await Breakable.load(await bodyFile('tile'));
+  assert.equal(tile.looks.name, 'painted tile');
+  assert.deepEqual(tile.looks.materials.map(({ name }) => name), ['glaze', 'clay']);
+  const [glaze] = tile.looks.materials;
+  assert.deepEqual(glaze.emission, [0.5, 0.25, 0]);
+  assert.ok(glaze.doubleSided && glaze.blending === 'mask' && glaze.alphaCutoff === 0.75);
+  assert.deepEqual([glaze.textures[0].slot, glaze.textures[0].uvSet, ...glaze.textures[0].wrap], ['baseColor', 1, 'clamp', 'mirror']);
+  const [image] = tile.looks.images;
+  assert.deepEqual([image.name, image.type, image.bytes[1]], ['glaze.png', 'image/png', 0x50]);
+  const sides = [0.1, 0.1, 0.006];
+  const painted = ({ positions, colors, moreUvs, indices, outerIndices, groups }, centre) => {
+    assert.equal(groups.reduce((sum, { count }) => sum + count, 0), outerIndices);
+    for (const { start, count, material } of groups) {
+      for (const v of indices.slice(start, start + count)) {
+        const place = sides.map((side, k) => (positions[3 * v + k] + centre[k]) / side + 0.5);
+        place.forEach((x, k) => assert.ok(Math.abs(colors[4 * v + k] - x) < 0.02));
+        assert.ok(Math.abs(moreUvs[0][2 * v] - 2 * place[1]) < 0.04 && Math.abs(moreUvs[0][2 * v + 1] - place[2]) < 0.02);
+        assert.ok(material === 1 || place[2] > 0.99, 'the glaze is the front');
+      }
+    }
+    for (const v of indices.slice(outerIndices)) assert.deepEqual([...colors.slice(4 * v, 4 * v + 4)], [1, 1, 1, 1]);
+  };
+  painted(tile.geometry, [0, 0, 0]);
+  const outcome = tile.body(3).impact({ point: [0, 0, 0.003], normal: [0, 0, -1], speed: 25, striker: ball });
+  assert.ok(outcome.broke);
+  for (const { geometry, centre } of outcome.fragments) painted(geometry, centre);
+  const made = materials(tile);
+  assert.ok(made[0].side === DoubleSide && made[0].vertexColors && made[0].map.channel === 1 && made[0].name === 'glaze');
+  const [piece] = meshes(outcome, outcome.motions({}), made);
+  assert.ok(piece.geometry.attributes.uv1 && piece.geometry.attributes.color.itemSize === 4);
+  assert.equal(piece.material.length, 3);
+  assert.equal(piece.geometry.groups.at(-1).materialIndex, 2);
+
+  // A mesh that is baked here keeps them, too.
+  const { BoxGeometry, BufferAttribute } = await import('three');
+  const box = new BoxGeometry(0.2, 0.1, 0.1);
+  const count = box.attributes.position.count;
+  box.setAttribute('color', new BufferAttribute(Float32Array.from({ length: 3 * count }, (_, i) => (i % 3) / 2), 3));
+  box.setAttribute('uv1', new BufferAttribute(Float32Array.from({ length: 2 * count }, (_, i) => i % 2), 2));
+  const own = await breakable(box, { material: 'concrete' });
+  assert.deepEqual(own.geometry.groups.map(({ material }) => material), [0, 1, 2, 3, 4, 5]);
+  assert.deepEqual([...own.geometry.colors.slice(0, 4)], [0, 0.5, 1, 1]);
+  assert.deepEqual([...own.geometry.moreUvs[0].slice(0, 2)], [0, 1]);
+  console.log(`npm: ${outcome.fragments.length} pieces of a tile keep colours, texture coordinates, materials and names`);
 }
 
 async function piecesBreakAgain() {

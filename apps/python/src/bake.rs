@@ -18,7 +18,7 @@ type Baked<'py> = (Kind, f64, Bound<'py, PyArray1<f64>>);
 /// A named range of faces: name, first and end.
 type Named = (String, u32, u32);
 
-/// Bakes a mesh: one body for each of its parts, or `single`, whose absence is an error. `tell(stage, share)` is called meanwhile.
+/// Bakes a mesh, that of the file at `path` if there is one: one body for each of its parts, or `single`, whose absence is an error. `tell(stage, share)` is called meanwhile.
 #[pyfunction]
 #[expect(clippy::too_many_arguments, reason = "Python gives them names")]
 pub(crate) fn bake<'py>(
@@ -38,8 +38,9 @@ pub(crate) fn bake<'py>(
     parts: Option<&str>,
     gap: Option<f64>,
     single: bool,
+    path: Option<PathBuf>,
 ) -> PyResult<Vec<Baked<'py>>> {
-    let mesh = InputMesh {
+    let given = InputMesh {
         positions: (vertices.as_slice()?.as_chunks().0.iter())
             .map(|&p| DVec3::from_array(p))
             .collect(),
@@ -51,6 +52,11 @@ pub(crate) fn bake<'py>(
             })
             .collect(),
         ..InputMesh::default()
+    };
+    // A file also has the looks of its surface, which pieces keep.
+    let mesh = match &path {
+        Some(path) => py.detach(|| frangible_mesh::read_mesh(path)).map_err(refused)?,
+        None => given,
     };
     let parts = match (parts, gap) {
         (None, None) => PartChoice::Auto,
@@ -104,6 +110,7 @@ pub(crate) fn bake<'py>(
             };
             let mut spec = BakeSpec {
                 groups: part.body.groups,
+                render: part.body.render.filter(|_| path.is_some()),
                 supports: supports.clone(),
                 seed,
                 cancel: cancel.clone(),

@@ -7,11 +7,14 @@ use frangible::internals::stress::largest_eigenvalue;
 use frangible::internals::{Factors, Fatigue, Fields, ShownStress, Stage, Vibration};
 use frangible::{Asset, Body, Breakable, Contact, FractureConfig, Material, impact, would_break};
 use frangible_bake::mode_field::mode_on_fracture_mesh;
+use frangible::glam::DVec3;
+use frangible_js::drawn::{Drawn, authored};
 use frangible_js::plain;
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 
+use crate::drawn::{arrays, looks};
 use crate::outcome::{Impact, masses};
 use crate::{numbers, refused};
 
@@ -136,6 +139,18 @@ impl Kind {
         about.set_item("frequencies", numbers(py, frequencies))?;
         masses(&about, &asset.mass)?;
         Ok(about)
+    }
+
+    /// Arrays of the mesh to draw.
+    fn drawn<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let asset = self.whole("is drawn by the outcome that it comes from")?.asset();
+        arrays(py, &py.detach(|| Drawn::whole(asset)), DVec3::ZERO)
+    }
+
+    /// Name, materials and images of the mesh that was baked, if it has any.
+    fn looks<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
+        let surface = authored(self.asset());
+        surface.map(|surface| looks(py, surface)).transpose()
     }
 
     /// Displacement of each vertex in a mode of unit modal mass, 1/√kg.

@@ -1,6 +1,7 @@
 //! Functions that the package's Python calls. Numbers pass as flat arrays; the Python beside makes objects and sentences of them, and describes them.
 
 mod bake;
+mod drawn;
 mod kind;
 mod outcome;
 mod world;

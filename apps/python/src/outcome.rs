@@ -4,11 +4,14 @@ use frangible::internals::MassProperties;
 use frangible::internals::outcome::ContactReport;
 use frangible::{Body, Fracture, Fragment, Outcome};
 use frangible_bake::pieces::{Method, Pieces};
+use frangible_js::drawn::Drawn;
+use frangible_js::hulls::hulls_of_fragment;
 use frangible_js::plain;
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
+use crate::drawn::arrays;
 use crate::kind::Kind;
 use crate::{numbers, refused};
 
@@ -98,15 +101,22 @@ impl Impact {
         PyList::new(py, all.collect::<PyResult<Vec<_>>>()?)
     }
 
+    /// Arrays of the mesh of a fragment to draw.
+    fn drawn<'py>(&self, py: Python<'py>, number: usize) -> PyResult<Bound<'py, PyDict>> {
+        let fragments = &self.fracture.fragments;
+        let count = fragments.len();
+        let fragment = fragments.get(number).ok_or_else(|| missing(number, count))?;
+        let drawn = py.detach(|| Drawn::fragment(self.body.asset(), fragment));
+        arrays(py, &drawn, fragment.mass.centre)
+    }
+
     /// A fragment as a body that breaks again, with vibration modes of its own.
     fn piece(&self, py: Python<'_>, number: usize) -> PyResult<Kind> {
         py.detach(|| {
             let mut portions = self.fracture.portions(&self.body, |k, _| k == number);
             let portion = portions.get_mut(number).and_then(Option::take);
             let count = self.fracture.fragments.len();
-            let portion = portion.ok_or_else(|| {
-                refused(format!("there is no fragment {number}; there are {count}"))
-            })?;
+            let portion = portion.ok_or_else(|| missing(number, count))?;
             let elastic = Pieces::default().elastic(Method::Auto, &portion, &self.body);
             let body = self.body.piece(&portion, elastic.map_err(refused)?);
             Ok(Kind::piece(body.map_err(refused)?))
@@ -130,6 +140,10 @@ impl Impact {
         );
         Ok(numbers(py, rows))
     }
+}
+
+fn missing(number: usize, count: usize) -> PyErr {
+    refused(format!("there is no fragment {number}; there are {count}"))
 }
 
 fn contact<'py>(py: Python<'py>, report: &ContactReport) -> PyResult<Bound<'py, PyDict>> {
@@ -166,7 +180,7 @@ fn fragment<'py>(py: Python<'py>, fragment: &Fragment) -> PyResult<Bound<'py, Py
     dict.set_item("neighbour", PyArray1::from_vec(py, neighbours.collect()))?;
     dict.set_item("outer_faces", mesh.outer_triangles)?;
     dict.set_item("supported", fragment.supported)?;
-    let hulls: Vec<_> = plain::hulls_of_fragment(fragment)
+    let hulls: Vec<_> = hulls_of_fragment(fragment)
         .into_iter()
         .map(|hull| {
             let corners = hull.as_chunks().0.iter();

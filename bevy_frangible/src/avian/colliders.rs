@@ -1,9 +1,10 @@
 //! Colliders of bodies and pieces: of the convex cells that a bake has made, put together until they are few. No convex decomposition
 //! happens in a game. Shapes serve contact alone; masses come from the exact pieces.
 
+use avian3d::parry::{self, shape::SharedShape};
 use avian3d::prelude::*;
 use bevy::prelude::*;
-use frangible::internals::mesh::{merged_parts, thinned};
+use frangible::internals::mesh::{ConvexHull, bounds, hulls_of_parts, merged_parts};
 use frangible::{Asset as Baked, Fragment, TriMesh, glam};
 
 use crate::meshes::out;
@@ -36,13 +37,20 @@ impl Default for ColliderDetail {
     }
 }
 
+/// Distance by which a collider may miss a point of its solid, over the longest side of the solid.
+const TOLERANCE: f32 = 3e-3;
+
+/// Volume of a hull that is no collider, m³.
+const LEAST_VOLUME: f64 = 1e-15;
+
 /// Smallest extent of a stand-in box, m.
 const LEAST_EXTENT: f32 = 4e-4;
 
 /// The collider of a whole body.
 pub(super) fn whole(baked: &Baked, (parts, points): (usize, usize)) -> Collider {
     let cells = baked.cells.iter().map(|cell| &cell.points[..]).collect();
-    compound(cells, parts, points).unwrap_or_else(|| bounding_box(baked.surface_positions()))
+    let solid = baked.surface_positions();
+    compound(cells, parts, points, within(solid)).unwrap_or_else(|| bounding_box(solid))
 }
 
 /// The collider of a fragment: one hull, the hulls of its shares of the cells, or a box. One that is held has its own surface: the rest of a pane in
@@ -54,18 +62,17 @@ pub(super) fn of_fragment(fragment: &Fragment, detail: &ColliderDetail) -> Colli
         return surface;
     }
     let (parts, points) = detail.fragment;
-    let one = hull(&fragment.mesh.positions, points);
-    if let Some(one) = &one {
-        let volume = f64::from(one.shape().mass_properties(1.0).mass());
-        if volume <= detail.hull_volume_ratio * fragment.mass.volume {
-            return one.clone();
-        }
+    let solid = &fragment.mesh.positions;
+    let one = ConvexHull::new(solid, points.max(4), within(solid));
+    let is_convex =
+        |hull: &ConvexHull| hull.volume() <= detail.hull_volume_ratio * fragment.mass.volume;
+    if let Some(one) = one.as_ref().filter(|one| is_convex(one)).and_then(collider) {
+        return one;
     }
     let shares = fragment.cell_shares.iter().map(|(_, points)| &points[..]);
-    let shares = compound(shares.collect(), parts, points);
-    shares
-        .or(one)
-        .unwrap_or_else(|| bounding_box(&fragment.mesh.positions))
+    compound(shares.collect(), parts, points, within(solid))
+        .or_else(|| collider(one.as_ref()?))
+        .unwrap_or_else(|| bounding_box(solid))
 }
 
 fn surface(mesh: &TriMesh) -> Option<Collider> {
@@ -73,18 +80,28 @@ fn surface(mesh: &TriMesh) -> Option<Collider> {
     Collider::try_trimesh(corners, mesh.triangles.clone()).ok()
 }
 
-/// None where the points have no volume.
-fn hull(points: &[glam::Vec3], most: usize) -> Option<Collider> {
-    let points = thinned(points, most.max(4));
-    let hull = Collider::convex_hull(points.into_iter().map(out).collect())?;
-    // Flat hulls make contacts with random normals.
-    let volume = hull.shape().mass_properties(1.0).mass();
-    (volume.is_finite() && volume > 1e-15).then_some(hull)
+/// Distance by which a collider may miss a point of its solid, m: colliders follow what is drawn, because a tip that one misses sinks into the floor.
+fn within(solid: &[glam::Vec3]) -> f32 {
+    let (low, high) = bounds(solid);
+    TOLERANCE * (high - low).max_element()
 }
 
-fn compound(parts: Vec<&[glam::Vec3]>, most: usize, points: usize) -> Option<Collider> {
-    let parts = merged_parts(parts, most);
-    let mut hulls: Vec<Collider> = parts.iter().filter_map(|p| hull(p, points)).collect();
+/// None where the hull has no volume: contacts of flat hulls have random normals.
+fn collider(hull: &ConvexHull) -> Option<Collider> {
+    let corner = |p: &glam::Vec3| parry::math::Vector::from_array(p.to_array());
+    let corners = hull.corners.iter().map(corner).collect();
+    let hull = Some(hull).filter(|hull| hull.volume() > LEAST_VOLUME)?;
+    SharedShape::convex_mesh(corners, &hull.triangles).map(Collider::from)
+}
+
+fn compound(
+    parts: Vec<&[glam::Vec3]>,
+    most: usize,
+    points: usize,
+    within: f32,
+) -> Option<Collider> {
+    let hulls = hulls_of_parts(merged_parts(parts, most), points.max(4), within);
+    let mut hulls: Vec<Collider> = hulls.iter().filter_map(collider).collect();
     match hulls.len() {
         0 | 1 => hulls.pop(),
         _ => {

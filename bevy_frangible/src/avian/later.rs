@@ -15,7 +15,7 @@ use frangible::{Body, Contact, FractureConfig, Outcome, impact};
 use super::colliders::{ColliderDetail, of_fragment};
 use super::{Molds, Ruling, Verdict, Verdicts};
 use crate::break_apart::Judged;
-use crate::meshes::faces;
+use crate::meshes::{authored, faces};
 use crate::work::{Promise, Workers};
 use crate::{BreakableBody, DebrisBudget, Fracturing};
 
@@ -156,7 +156,8 @@ fn judge(
         .clone()
         .map(|f| (!debris.is_dust(f)).then(|| of_fragment(f, detail)))
         .collect();
-    let faces = fragments.map(|f| faces(&f.mesh)).collect();
+    let surface = authored(body.asset());
+    let faces = fragments.map(|f| faces(f, surface)).collect();
     let judged = Judged {
         outcome,
         faces: Some(faces),

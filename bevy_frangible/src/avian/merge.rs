@@ -5,7 +5,7 @@ use bevy::camera::primitives::Aabb;
 use bevy::prelude::*;
 
 use super::bodies::Inherited;
-use crate::{Born, CrackFaces, FragmentOf, Fragments, OuterFaces, Rubble};
+use crate::{Born, CrackFaces, FragmentOf, Fragments, MaterialOfFile, OuterFaces, Rubble};
 
 /// Convex parts of a collider, where they are.
 type Parts = Vec<(Vec3, Quat, Collider)>;
@@ -85,39 +85,48 @@ fn parts(world: &World, entity: Entity, at: Vec3, turn: Quat) -> Parts {
         .collect()
 }
 
-/// Adds a piece's faces to those of the static body; the first ones give it their look.
+/// Adds a piece's faces to those of the static body, those of each material by themselves; the first ones give it their look.
 fn merge_faces<F: Component>(world: &mut World, rubble: Entity, piece: Entity, place: Transform) {
-    let face = |world: &World, of: Entity| {
-        let children = world.get::<Children>(of)?;
-        let mut faces = children.iter().filter(|&c| world.get::<F>(c).is_some());
-        let face = faces.next()?;
-        Some((face, world.get::<Mesh3d>(face)?.0.clone()))
+    for (new, mesh, material) in faces::<F>(world, piece) {
+        let mut known = faces::<F>(world, rubble).into_iter();
+        let known = known.find(|(_, _, of)| *of == material);
+        let Some(mut meshes) = world.get_resource_mut::<Assets<Mesh>>() else {
+            return;
+        };
+        let Some(mesh) = meshes.get(&mesh) else {
+            continue;
+        };
+        let mesh = mesh.clone().transformed_by(place);
+        let (target, merged) = match known {
+            Some((target, before, _)) => {
+                let merged = meshes.get(&before).cloned().and_then(|mut all| {
+                    // All faces of a body have the same attributes.
+                    all.merge(&mesh).ok().map(|()| all)
+                });
+                (Some(target), merged.unwrap_or(mesh))
+            }
+            None => (None, mesh),
+        };
+        let handle = Mesh3d(meshes.add(merged));
+        let target = target.unwrap_or_else(|| world.entity_mut(new).clone_and_spawn());
+        world
+            .entity_mut(target)
+            .insert((handle, ChildOf(rubble), Transform::IDENTITY))
+            .remove::<Aabb>();
+    }
+}
+
+/// Faces of an entity, with their meshes and materials.
+fn faces<F: Component>(
+    world: &World,
+    of: Entity,
+) -> Vec<(Entity, Handle<Mesh>, Option<MaterialOfFile>)> {
+    let children = world.get::<Children>(of).into_iter();
+    let faces = children.flat_map(|c| c.iter());
+    let face = |face: Entity| {
+        world.get::<F>(face)?;
+        let mesh = world.get::<Mesh3d>(face)?.0.clone();
+        Some((face, mesh, world.get::<MaterialOfFile>(face).cloned()))
     };
-    let Some((new, mesh)) = face(world, piece) else {
-        return;
-    };
-    let known = face(world, rubble);
-    let Some(mut meshes) = world.get_resource_mut::<Assets<Mesh>>() else {
-        return;
-    };
-    let Some(mesh) = meshes.get(&mesh) else {
-        return;
-    };
-    let mesh = mesh.clone().transformed_by(place);
-    let (target, merged) = match known {
-        Some((target, before)) => {
-            let merged = meshes.get(&before).cloned().and_then(|mut all| {
-                // All faces have positions and normals.
-                all.merge(&mesh).ok().map(|()| all)
-            });
-            (Some(target), merged.unwrap_or(mesh))
-        }
-        None => (None, mesh),
-    };
-    let handle = Mesh3d(meshes.add(merged));
-    let target = target.unwrap_or_else(|| world.entity_mut(new).clone_and_spawn());
-    world
-        .entity_mut(target)
-        .insert((handle, ChildOf(rubble), Transform::IDENTITY))
-        .remove::<Aabb>();
+    faces.filter_map(face).collect()
 }

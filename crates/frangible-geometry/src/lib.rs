@@ -37,11 +37,11 @@ pub use convex::{bounds, box_of, merged_parts, thinned};
 pub use disjoint::DisjointSets;
 pub use drawn::{
     Blending, Boundary, Division, Image, ImageKind, Part, Parts, Piece as DrawnPiece, Placement,
-    RenderIndex, RenderMaterial, RenderSurface, Texture, TextureSlot, Wrap,
+    RenderIndex, RenderMaterial, RenderSurface, Texture, TextureSlot, Wrap, linear_color,
 };
 pub use eigen::symmetric_eigen;
 pub use glam;
-pub use hull::ConvexHull;
+pub use hull::{ConvexHull, hulls_of_parts};
 pub use mass::MassProperties;
 pub use render::{RenderMesh, box_projection};
 pub use rows::Rows;

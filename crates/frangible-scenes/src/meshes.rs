@@ -4,14 +4,14 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 
 use frangible::glam::Vec3;
-use frangible::internals::asset::RenderSurface;
+use frangible::internals::asset::{RenderSurface, linear_color};
 use frangible::internals::{RenderMesh, box_projection};
 use frangible::{Asset, Fragment, TriMesh};
 use frangible_recording::{MeshPart, RecordedMesh};
 
 use crate::cracks::add_cracks;
 use crate::light::lightened;
-use crate::output::{Simplified, TOLERANCE};
+use crate::output::{Simplified, TOLERANCE, WANTED_OF_PIECE};
 
 /// Indices of the surfaces (materials) of the outside and of the crack faces.
 #[derive(Clone, Debug)]
@@ -126,11 +126,13 @@ pub(crate) fn whole(node: &str, asset: &Asset, surfaces: &BodySurfaces) -> Recor
         let parts = by_material(&triangles, &render.material_of_triangle, surfaces);
         return builder.finish(name, parts);
     }
-    let mut indices = Vec::new();
-    for (triangle, &normals) in asset.surface.triangles.iter().zip(&asset.surface.normals) {
-        let corners = triangle.map(|v| asset.fracture.positions[v as usize]);
-        indices.extend(builder.triangle(*triangle, corners, normals, None));
+    let (positions, outside) = (&asset.fracture.positions, &asset.surface.triangles);
+    let mut drawn = undrawn(positions, outside, &asset.surface.normals, Vec3::ZERO);
+    if let Some(tolerance) = surfaces.light {
+        drawn = lightened(&drawn, Vec3::ZERO, false, tolerance).0;
     }
+    builder.mesh = vertices(&drawn);
+    let indices = drawn.triangles.as_flattened().to_vec();
     builder.finish(name, vec![(surfaces.outer, indices)])
 }
 
@@ -146,14 +148,16 @@ pub(crate) fn piece(node: &str, fragment: &Fragment, surfaces: &BodySurfaces) ->
     let origin = fragment.mass.centre.as_vec3();
     let mut drawn = match &fragment.render {
         Some(render) => Cow::Borrowed(render),
-        None => Cow::Owned(undrawn(&fragment.mesh, origin)),
+        None => Cow::Owned(undrawn_piece(&fragment.mesh, origin)),
     };
     let mut simplified = Simplified::default();
     if let Some(tolerance) = surfaces.light {
-        let (light, error) = lightened(&drawn, origin, tolerance);
+        let is_drawn = fragment.render.is_some();
+        let (light, error) = lightened(&drawn, origin, is_drawn, tolerance);
         simplified = Simplified {
             full: drawn.triangles.len(),
             light: light.triangles.len(),
+            wanted: WANTED_OF_PIECE,
             error,
             share: error / tolerance * TOLERANCE,
         };
@@ -175,23 +179,37 @@ pub(crate) fn piece(node: &str, fragment: &Fragment, surfaces: &BodySurfaces) ->
 }
 
 /// A piece of a body that no one drew. `origin`: its centre of mass in the body frame, m.
-fn undrawn(mesh: &TriMesh, origin: Vec3) -> RenderMesh {
+pub(crate) fn undrawn_piece(mesh: &TriMesh, origin: Vec3) -> RenderMesh {
+    RenderMesh {
+        outer_triangles: mesh.outer_triangles,
+        ..undrawn(&mesh.positions, &mesh.triangles, &mesh.normals, origin)
+    }
+}
+
+/// A surface that no one drew. `origin`: that of its positions in the body frame, m.
+fn undrawn(
+    positions: &[Vec3],
+    triangles: &[[u32; 3]],
+    normals: &[[Vec3; 3]],
+    origin: Vec3,
+) -> RenderMesh {
     let mut builder = Builder {
         origin,
         ..Builder::default()
     };
-    let corners = mesh.triangles.iter().zip(&mesh.normals);
-    let triangles = corners.map(|(triangle, &normals)| {
-        let corners = triangle.map(|v| mesh.positions[v as usize]);
-        builder.triangle(*triangle, corners, normals, None)
-    });
-    let triangles = triangles.collect();
+    let corners = triangles.iter().zip(normals);
+    let triangles: Vec<_> = corners
+        .map(|(triangle, &normals)| {
+            let corners = triangle.map(|v| positions[v as usize]);
+            builder.triangle(*triangle, corners, normals, None)
+        })
+        .collect();
     RenderMesh {
         positions: builder.mesh.positions,
         normals: builder.mesh.normals,
         uvs: builder.mesh.uvs,
+        outer_triangles: triangles.len(),
         triangles,
-        outer_triangles: mesh.outer_triangles,
         ..RenderMesh::default()
     }
 }
@@ -207,16 +225,12 @@ fn vertices(render: &RenderMesh) -> RecordedMesh {
     }
 }
 
-/// Makes the colours of vertices linear: by the inverse of sRGB's transfer function, IEC 61966-2-1.
+/// Makes the colours of vertices linear.
 fn linear(colors: &mut [[f32; 4]], surfaces: &BodySurfaces) {
-    if !surfaces.srgb_colors {
-        return;
-    }
-    for part in colors.iter_mut().flat_map(|color| &mut color[..3]) {
-        *part = match *part {
-            dark if dark <= 0.04045 => dark / 12.92,
-            bright => libm::powf((bright + 0.055) / 1.055, 2.4),
-        };
+    if surfaces.srgb_colors {
+        colors
+            .iter_mut()
+            .for_each(|color| *color = linear_color(*color));
     }
 }
 

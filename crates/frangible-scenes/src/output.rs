@@ -25,13 +25,17 @@ pub enum Drawing {
     /// Crack faces as computed, with the cracks that end inside a body.
     #[default]
     Full,
-    /// Crack faces with fewer triangles, at most [`TOLERANCE`] of the body's longest side away from the computed ones. Cracks that end inside
-    /// a body are left out.
+    /// Crack faces with fewer triangles, at most [`TOLERANCE`] of the body's longest side away from the computed ones; so are surfaces that no one
+    /// drew. Cracks that end inside a body are left out.
     Light,
 }
 
 /// Largest distance of simplified crack faces from the computed ones, of the longest side of the body.
 pub const TOLERANCE: f32 = 0.005;
+
+/// Triangles wanted of a light drawing: for each of its body as its author drew it, and for each piece.
+pub(crate) const WANTED_OF_DRAWN: usize = 3;
+pub(crate) const WANTED_OF_PIECE: usize = 200;
 
 /// Effect of [`Drawing::Light`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -40,6 +44,9 @@ pub struct Simplified {
     pub full: usize,
     /// Triangles after.
     pub light: usize,
+    /// Triangles wanted: at most 3 for each triangle of the bodies as their authors drew them, and 200 for each piece. Rough crack faces take more to
+    /// stay within the distance, which comes first.
+    pub wanted: usize,
     /// Largest distance between the two, m, measured at the corners and middles of triangles.
     pub error: f32,
     /// Largest distance as a share of the longest side of the body.
@@ -51,6 +58,7 @@ impl Simplified {
     pub(crate) fn add(&mut self, other: &Self) {
         self.full += other.full;
         self.light += other.light;
+        self.wanted += other.wanted;
         self.error = self.error.max(other.error);
         self.share = self.share.max(other.share);
     }

@@ -17,7 +17,7 @@ use frangible_sound::{Sounding, recorded_blow};
 use crate::cameras::cameras;
 use crate::cracks::with_cracks;
 use crate::meshes::{BodySurfaces, DrawnPiece, piece};
-use crate::output::Simplified;
+use crate::output::{Simplified, WANTED_OF_DRAWN};
 use crate::touching::WorldTouching;
 
 /// Frames per second of a recording.
@@ -156,6 +156,10 @@ impl Recorder {
     ) {
         self.break_frame.get_or_insert(self.recording.frame_count);
         let first = self.recording.nodes.len();
+        if generation == 0 && surfaces.light.is_some() {
+            let drawn = event.asset.render.as_ref();
+            self.simplified.wanted += WANTED_OF_DRAWN * drawn.map_or(0, |r| r.triangles.len());
+        }
         for (i, (fragment, &body)) in event
             .fracture
             .fragments

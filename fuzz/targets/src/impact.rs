@@ -8,15 +8,15 @@ use frangible::{
     would_break,
 };
 
-use crate::bodies::kinds;
+use crate::bodies::{Kinds, kinds, small_kinds};
 use crate::draw::Draw;
 
 /// A break into more pieces is not computed again to compare.
 const MANY: usize = 60;
 
 /// A body of one of the kinds: of another size, of another material, with weakness, or as it is.
-fn body(draw: &mut Draw<'_>) -> Option<Body> {
-    let mut kind = kinds()[draw.below(3)].clone();
+fn body(draw: &mut Draw<'_>, kinds: &Kinds) -> Option<Body> {
+    let mut kind = kinds[draw.below(3)].clone();
     if draw.below(8) == 7 {
         let asset = scaled(kind.asset(), draw.size(0.2, 5.0)).ok()?;
         kind = Breakable::new(asset).ok()?;
@@ -75,7 +75,12 @@ fn body(draw: &mut Draw<'_>) -> Option<Body> {
     Some(kind.body(draw.bits()))
 }
 
-fn striker(draw: &mut Draw<'_>, config: &FractureConfig, contact: &Contact) -> Striker {
+fn striker(
+    draw: &mut Draw<'_>,
+    kinds: &Kinds,
+    config: &FractureConfig,
+    contact: &Contact,
+) -> Striker {
     let material = Material::presets();
     let steel = &material[draw.below(material.len())].material();
     let mut striker = match draw.below(5) {
@@ -91,7 +96,7 @@ fn striker(draw: &mut Draw<'_>, config: &FractureConfig, contact: &Contact) -> S
             ..Striker::rigid()
         },
         _ => {
-            let other = kinds()[draw.below(3)].body(u64::from(draw.byte()));
+            let other = kinds[draw.below(3)].body(u64::from(draw.byte()));
             let mut felt = contact.clone();
             felt.point = draw.vector(0.15);
             let usual = Striker::fixed(steel);
@@ -113,7 +118,7 @@ fn striker(draw: &mut Draw<'_>, config: &FractureConfig, contact: &Contact) -> S
     striker
 }
 
-fn contact(draw: &mut Draw<'_>, asset: &Asset, config: &FractureConfig) -> Contact {
+fn contact(draw: &mut Draw<'_>, kinds: &Kinds, asset: &Asset, config: &FractureConfig) -> Contact {
     let (point, normal) = (draw.vector(0.15), draw.direction());
     if draw.below(4) == 3 {
         let push = normal * draw.size(1e-4, 100.0) as f32;
@@ -121,7 +126,7 @@ fn contact(draw: &mut Draw<'_>, asset: &Asset, config: &FractureConfig) -> Conta
     }
     let speed = draw.size(0.1, 30.0);
     let plain = Contact::strike(point, normal, speed as f32, Striker::rigid());
-    let striker = striker(draw, config, &plain);
+    let striker = striker(draw, kinds, config, &plain);
     let mut contact = Contact::collision(asset, point, normal, speed, striker);
     if draw.below(4) == 3 {
         contact.impulse = draw.size(1e-4, 100.0) as f32;
@@ -176,7 +181,12 @@ fn masses(outcome: &Outcome) -> Vec<u64> {
     }
 }
 
-fn load(draw: &mut Draw<'_>, body: &Body, config: &FractureConfig) -> Result<Outcome, InputError> {
+fn load(
+    draw: &mut Draw<'_>,
+    kinds: &Kinds,
+    body: &Body,
+    config: &FractureConfig,
+) -> Result<Outcome, InputError> {
     match draw.below(8) {
         5 => {
             let count = 1 + draw.below(4);
@@ -208,7 +218,7 @@ fn load(draw: &mut Draw<'_>, body: &Body, config: &FractureConfig) -> Result<Out
         _ => {
             let (asks, count) = (draw.byte(), 1 + draw.below(4));
             let contacts: Vec<Contact> = (0..count)
-                .map(|_| contact(draw, body.asset(), config))
+                .map(|_| contact(draw, kinds, body.asset(), config))
                 .collect();
             let outcome = frangible::impact(body, &contacts, config);
             // A body that shatters takes long enough once.
@@ -233,14 +243,23 @@ fn load(draw: &mut Draw<'_>, body: &Body, config: &FractureConfig) -> Result<Out
 
 /// Breaks the body that the bytes describe, by the blows that they describe.
 pub fn impact(data: &[u8]) {
+    run(data, kinds());
+}
+
+/// The same with smaller bodies, for many inputs.
+pub fn impact_small(data: &[u8]) {
+    run(data, small_kinds());
+}
+
+fn run(data: &[u8], kinds: &Kinds) {
     let mut draw = Draw::new(data);
     let config = draw.fracture();
-    let Some(mut body) = body(&mut draw) else {
+    let Some(mut body) = body(&mut draw, kinds) else {
         return;
     };
     // The second one finds the cracks of the first.
     for _ in 0..2 {
-        let Ok(outcome) = load(&mut draw, &body, &config) else {
+        let Ok(outcome) = load(&mut draw, kinds, &body, &config) else {
             return;
         };
         check(&body, &outcome);

@@ -14,10 +14,10 @@ mod world;
 
 pub use body_state::body_state;
 pub use c_interface::c_interface;
-pub use impact::impact;
+pub use impact::{impact, impact_small};
 pub use readers::{read_asset, read_gltf, read_obj, read_ply, read_scene, read_stl, read_tets};
 pub use run_scene::run_scene;
-pub use world::world;
+pub use world::{world, world_small};
 
 /// The text that the bytes begin with.
 fn text(bytes: &[u8]) -> &str {

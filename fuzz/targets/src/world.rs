@@ -12,7 +12,7 @@ use frangible_rapier::{
     WorldConfig,
 };
 
-use crate::bodies::kinds;
+use crate::bodies::{Kinds, kinds, small_kinds};
 use crate::draw::Draw;
 
 /// Steps of one input.
@@ -115,6 +115,7 @@ fn surface(draw: &mut Draw<'_>) -> SurfaceProperties {
 
 /// A world, the bodies in it, and a saved state.
 struct Play {
+    kinds: &'static Kinds,
     world: BreakableWorld,
     bodies: Vec<RigidBodyHandle>,
     /// Mass of all bodies that were put in and not taken out, kg; of those that never move it is 0.
@@ -140,7 +141,7 @@ impl Play {
         let world = &mut self.world;
         match draw.below(16) {
             0..=2 if self.several || world.breakables().next().is_none() => {
-                let body = kinds()[draw.below(3)].body(u64::from(draw.byte()));
+                let body = self.kinds[draw.below(3)].body(u64::from(draw.byte()));
                 let mass = body.asset().mass.mass;
                 let (pose, moves, spins) = (pose(draw), vector(draw, 15.0), vector(draw, 10.0));
                 if let Ok(handle) = world.insert_breakable(body, pose, moves, spins) {
@@ -288,6 +289,15 @@ impl Play {
 
 /// Does the deeds that the bytes describe to a world.
 pub fn world(data: &[u8]) {
+    run(data, kinds());
+}
+
+/// The same with smaller bodies, for many inputs.
+pub fn world_small(data: &[u8]) {
+    run(data, small_kinds());
+}
+
+fn run(data: &[u8], kinds: &'static Kinds) {
     let mut draw = Draw::new(data);
     let config = config(&mut draw);
     let loses = config.dust_mass > 0.0 || config.max_debris < BODIES;
@@ -316,6 +326,7 @@ pub fn world(data: &[u8]) {
     let floor = world.insert_fixed_half_space(Vector::NEG_Y, Vector::Y, SurfaceProperties::STONE);
     floor.expect("a floor");
     let mut play = Play {
+        kinds,
         world,
         bodies: Vec::new(),
         mass: 0.0,

@@ -43,6 +43,7 @@ targets! {
     body_state
     c_interface
     impact
+    impact_small
     read_asset
     read_gltf
     read_obj
@@ -52,6 +53,7 @@ targets! {
     read_tets
     run_scene
     world
+    world_small
 }
 
 #[test]

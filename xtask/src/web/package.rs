@@ -101,7 +101,7 @@ fn install(folders: &Folders, package: &Path) -> Result<PathBuf> {
         copy(&from.join(name), &project.join(name))?;
     }
     make_folder(&project.join("bodies"))?;
-    for body in ["pane", "block"] {
+    for body in ["pane", "block", "tile"] {
         let file = format!("{body}.frangible");
         let baked = root().join("crates/frangible/tests/bodies").join(&file);
         copy(&baked, &project.join("bodies").join(&file))?;

@@ -6,7 +6,7 @@
 use frangible::glam::{Vec2, Vec3};
 use frangible::internals::asset::SaveOptions;
 use frangible::{Asset, Body, Fracture, Material};
-use frangible_bake::frangible_mesh::{InputMesh, PartChoice, Similarity};
+use frangible_bake::frangible_mesh::{InputMaterial, InputMesh, PartChoice, Similarity};
 use frangible_bake::pieces::{Method, PieceError, Pieces};
 use frangible_bake::{BakeError, BakeSpec, ImportOptions, Progress, import_mesh};
 
@@ -29,29 +29,53 @@ pub struct Wish {
     pub parts: PartChoice,
 }
 
-/// Makes a mesh from flat lists of numbers: three per vertex, three per triangle; normals and texture coordinates may be empty.
+/// A mesh as flat lists of numbers. All but positions and indices may be empty.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Flat<'a> {
+    /// Three numbers per vertex.
+    pub positions: &'a [f32],
+    /// Three per triangle.
+    pub indices: &'a [u32],
+    /// Three numbers per vertex.
+    pub normals: &'a [f32],
+    /// Texture coordinates, two per vertex.
+    pub uvs: &'a [f32],
+    /// Further sets of them, one after the other.
+    pub more_uvs: &'a [f32],
+    /// Linear red, green, blue and opacity of each vertex.
+    pub colors: &'a [f32],
+    /// Number of the material of each triangle.
+    pub materials: &'a [u32],
+}
+
+/// Makes a mesh from flat lists of numbers.
 #[must_use]
-pub fn mesh(positions: &[f32], indices: &[u32], normals: &[f32], uvs: &[f32]) -> InputMesh {
+pub fn mesh(flat: &Flat<'_>) -> InputMesh {
+    let vertices = flat.positions.len() / 3;
+    let coordinates = |uvs: &[f32]| -> Vec<Vec2> {
+        let uvs = uvs.as_chunks().0.iter();
+        uvs.map(|&uv| Vec2::from_array(uv)).collect()
+    };
+    let vectors = |list: &[f32]| -> Vec<Vec3> {
+        let list = list.as_chunks().0.iter();
+        list.map(|&v| Vec3::from_array(v)).collect()
+    };
+    let materials = flat.materials.iter().max().map_or(0, |&most| most + 1);
     InputMesh {
-        positions: positions
-            .as_chunks()
-            .0
-            .iter()
-            .map(|&p| Vec3::from_array(p).as_dvec3())
+        positions: (vectors(flat.positions).iter())
+            .map(|p| p.as_dvec3())
             .collect(),
-        triangles: indices.as_chunks().0.to_vec(),
-        normals: normals
-            .as_chunks()
-            .0
-            .iter()
-            .map(|&n| Vec3::from_array(n))
+        triangles: flat.indices.as_chunks().0.to_vec(),
+        normals: vectors(flat.normals),
+        uvs: coordinates(flat.uvs),
+        more_uvs: (flat.more_uvs.chunks_exact((2 * vertices).max(1)))
+            .map(coordinates)
             .collect(),
-        uvs: uvs
-            .as_chunks()
-            .0
-            .iter()
-            .map(|&uv| Vec2::from_array(uv))
+        colors: (flat.colors.as_chunks().0.iter())
+            .map(|color: &[f32; 4]| color.map(|part| part.clamp(0.0, 1.0)))
             .collect(),
+        material_of_triangle: flat.materials.to_vec(),
+        materials: vec![InputMaterial::default(); materials as usize],
         ..InputMesh::default()
     }
 }
@@ -109,10 +133,10 @@ pub mod bindings {
     use frangible::Material;
     use frangible_bake::frangible_mesh::PartChoice;
     use frangible_js::bindings::{Break, WasmBody};
-    use js_sys::Function;
+    use js_sys::{Float32Array, Function};
     use wasm_bindgen::prelude::*;
 
-    use super::{Wish, file, mesh};
+    use super::{Flat, Wish, file, mesh};
 
     /// A baked body.
     #[wasm_bindgen]
@@ -140,7 +164,8 @@ pub mod bindings {
         }
     }
 
-    /// Bakes a mesh. `numbers`: size, wall, tetrahedra, modes, gap (NaN for none). `parts`: `largest`, `weld` or empty. Calls `tell(stage, share)` to report progress.
+    /// Bakes a mesh. `more`: further texture coordinates and colours. `numbers`: size, wall, tetrahedra, modes, gap (NaN for none). `words`: material,
+    /// name, and `largest`, `weld` or empty for the choice of parts. Calls `tell(stage, share)` to report progress.
     ///
     /// # Errors
     /// Errors of [`bake`](super::bake), and a name that no material has.
@@ -149,13 +174,15 @@ pub mod bindings {
         positions: &[f32],
         normals: &[f32],
         uvs: &[f32],
+        more: Vec<Float32Array>,
         indices: &[u32],
+        materials: &[u32],
         numbers: &[f64],
-        material: &str,
-        name: &str,
-        parts: &str,
+        words: Vec<String>,
         tell: &Function,
     ) -> Result<Baked, JsError> {
+        let [more_uvs, colors] = [0, 1].map(|k| more.get(k).map(Float32Array::to_vec));
+        let [material, name, parts] = [0, 1, 2].map(|k| words.get(k).map_or("", |word| word));
         let parts = match parts {
             "largest" => PartChoice::Largest,
             "weld" => PartChoice::Weld {
@@ -177,7 +204,15 @@ pub mod bindings {
             // A listener that throws does not stop the bake.
             let _ = tell.call2(&JsValue::NULL, &stage.into(), &p.fraction.into());
         };
-        let mesh = mesh(positions, indices, normals, uvs);
+        let mesh = mesh(&Flat {
+            positions,
+            indices,
+            normals,
+            uvs,
+            more_uvs: &more_uvs.unwrap_or_default(),
+            colors: &colors.unwrap_or_default(),
+            materials,
+        });
         let (asset, placed) = super::bake(&mesh, &wish, &mut progress)?;
         Ok(Baked {
             bytes: file(&asset),

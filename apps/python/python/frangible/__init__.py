@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, Any
 from ._frangible import __version__
 from .bodies import Body, Fatigue, bake, bake_parts, box, load, read_mesh
 from .contacts import Contact, Striker
+from .drawn import Drawn, Image, Look, Looks, TextureUse
 from .outcomes import Fragment, Motion, Outcome
 from .world import Thing, World
 
@@ -29,11 +30,16 @@ if TYPE_CHECKING:
 __all__ = [
     "Body",
     "Contact",
+    "Drawn",
     "Fatigue",
     "Fragment",
+    "Image",
+    "Look",
+    "Looks",
     "Motion",
     "Outcome",
     "Striker",
+    "TextureUse",
     "Thing",
     "World",
     "__version__",

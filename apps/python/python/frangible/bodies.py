@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from . import _frangible
 from .arrays import Floats, Ints, mesh, number, rows, seed_of, strings, vector
 from .contacts import Contact, rows_of
+from .drawn import Drawn, Looks, drawn_of, looks_of
 from .outcomes import Outcome
 from .weakness import Factor, factors_of
 
@@ -87,6 +88,21 @@ class Body:
     def modes(self) -> Floats:
         """Mass-normalised mode shapes: (k, n, 3) displacement of each vertex in each mode, 1/√kg."""
         return np.stack([rows(self._kind.mode(i), 3) for i in range(len(self.frequencies))])
+
+    @property
+    def drawn(self) -> Drawn:
+        """The mesh to draw, in the body's frame: as its author drew it, if it was baked from a file.
+
+        Raises:
+            ValueError: The body is a piece; ``Outcome.drawn`` has its mesh.
+        """
+        return drawn_of(self._kind.drawn())
+
+    @property
+    def looks(self) -> Looks | None:
+        """Name, materials and images of the file that was baked; fragments have them, too. ``None`` if it was baked from arrays."""
+        given = self._kind.looks()
+        return None if given is None else looks_of(given)
 
     def weakened(
         self,
@@ -257,7 +273,7 @@ def bake(
 
     Args:
         vertices: Array (n, 3), or the path of a mesh file (OBJ, STL, PLY, glTF, GLB), or an object with ``vertices`` and ``faces``, such as a
-            ``trimesh.Trimesh``.
+            ``trimesh.Trimesh``. Fragments keep the looks of a file: see ``Outcome.drawn`` and ``Body.looks``.
         faces: Array (m, 3) of vertex indices. Split or duplicate vertices, duplicate or inverted faces, and holes are repaired.
         material: Name of a material: ``glass`` (with handling damage; also ``glass-new``, ``glass-abraded``), ``porcelain``, ``brick``, ``concrete``,
             ``chocolate`` …
@@ -347,10 +363,11 @@ def _baked(
     single: bool,
 ) -> list[Body]:
     groups: list[tuple[str, int, int]] = []
+    path = None
     if faces is None and isinstance(vertices, str | os.PathLike):
-        flat, indices, groups = _frangible.read_mesh(os.fspath(vertices))
-        vertices, faces = flat.reshape(-1, 3), indices.reshape(-1, 3)
-    places, corners = mesh(*_both(vertices, faces))
+        path, places, corners = os.fspath(vertices), np.zeros((0, 3)), np.zeros((0, 3), dtype=np.uint32)
+    else:
+        places, corners = mesh(*_both(vertices, faces))
     for what, value in (("size", size), ("wall", wall)):
         if value is not None:
             number(value, what, above=True)
@@ -360,7 +377,7 @@ def _baked(
         if count is not None and (int(count) != count or count < 1):
             raise ValueError(f"{what} is {count!r}; give a whole number from 1")
     held, seeded = strings(supports), seed_of(seed)
-    wanted = name, material, size, wall, tetrahedra, modes, held, seeded, progress, groups, parts, gap, single
+    wanted = name, material, size, wall, tetrahedra, modes, held, seeded, progress, groups, parts, gap, single, path
     return [Body(*baked) for baked in _frangible.bake(places.ravel(), corners.ravel(), *wanted)]
 
 

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._frangible import Impact
 from .arrays import Floats, Ints, number, rotation, rows, vector
+from .drawn import Drawn, drawn_of
 
 if TYPE_CHECKING:
     from .bodies import Body
@@ -123,6 +124,16 @@ class Outcome:
         motions = [Motion(row[:3], row[3:]) for row in found]
         count = len(self.fragments)
         return motions[:count], motions[count] if striker is not None and len(motions) > count else None
+
+    def drawn(self, number: int) -> Drawn:
+        """Returns the mesh of a fragment to draw, in the body's frame, with the looks of the file that was baked (``Body.looks``).
+
+        Raises:
+            ValueError: The fragment does not exist.
+        """
+        if not 0 <= number < len(self.fragments):
+            raise ValueError(f"there is no fragment {number}; there are {len(self.fragments)}")
+        return drawn_of(self._impact.drawn(number))
 
     def piece(self, number: int) -> Body:
         """Returns a fragment as a body with its own vibration modes, which can break again.

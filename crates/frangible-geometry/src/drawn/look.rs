@@ -38,6 +38,16 @@ impl Default for RenderMaterial {
     }
 }
 
+/// Makes an sRGB colour linear (IEC 61966-2-1); the opacity stays.
+#[must_use]
+pub fn linear_color([red, green, blue, opacity]: [f32; 4]) -> [f32; 4] {
+    let linear = |part: f32| match part {
+        dark if dark <= 0.04045 => dark / 12.92,
+        bright => libm::powf((bright + 0.055) / 1.055, 2.4),
+    };
+    [linear(red), linear(green), linear(blue), opacity]
+}
+
 /// Meaning of the opacity of a material.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Blending {

@@ -27,7 +27,9 @@ use glam::{DVec3, Vec3};
 use crate::{RenderMesh, TriangleTree};
 use conform::{Corner, Corners, Room};
 use edges::{Edges, NO_TRIANGLE};
-pub use look::{Blending, Image, ImageKind, Placement, RenderMaterial, Texture, TextureSlot, Wrap};
+pub use look::{
+    Blending, Image, ImageKind, Placement, RenderMaterial, Texture, TextureSlot, Wrap, linear_color,
+};
 use overlay::{Ground, Overlay};
 use parts::MIXED;
 pub use parts::{Part, Parts};

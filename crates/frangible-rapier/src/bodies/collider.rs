@@ -5,7 +5,9 @@
 //!
 //! The hulls of a fragment follow what is drawn, also those of debris: a tip that a collider misses sinks into the floor.
 
-use frangible::internals::mesh::{ConvexHull, bounds, box_of, merged_parts, thinned};
+use frangible::internals::mesh::{
+    ConvexHull, bounds, box_of, hulls_of_parts, merged_parts, thinned,
+};
 use frangible::{Asset, Fragment};
 use rapier3d::geometry::SharedShape;
 use rapier3d::math::{Pose, Vector};
@@ -45,33 +47,10 @@ pub fn collision_shape(fragment: &Fragment, config: &WorldConfig) -> SharedShape
     }
     let shares = fragment.cell_shares.iter().map(|(_, points)| &**points);
     let parts = merged_parts(shares.collect(), config.fragment_collider.parts);
-    let hulls = hulls(parts, most, within);
+    let hulls = hulls_of_parts(parts, most, within);
     compound(hulls.iter().filter_map(solid))
         .or_else(|| solid(&ConvexHull::new(positions, most, within)?))
         .unwrap_or_else(|| fitted_box(positions, fragment.mass.volume))
-}
-
-/// Hulls of convex parts. The points of one without a volume go to its nearest neighbour, so that no corner is left without a collider.
-fn hulls(parts: Vec<Vec<Vector>>, most: usize, within: f32) -> Vec<ConvexHull> {
-    let hull = |points: &[Vector]| ConvexHull::new(points, most, within).filter(has_volume);
-    let (mut all, mut flat) = (Vec::with_capacity(parts.len()), Vec::new());
-    for points in parts {
-        match hull(&points) {
-            Some(hull) => all.push((points, hull)),
-            None => flat.push(points),
-        }
-    }
-    let middle = |points: &[Vector]| points.iter().sum::<Vector>() / points.len().max(1) as f32;
-    for points in flat {
-        let at = middle(&points);
-        let away = |part: &(Vec<Vector>, ConvexHull)| middle(&part.0).distance_squared(at);
-        let nearest = all.iter_mut().min_by(|a, b| away(a).total_cmp(&away(b)));
-        if let Some((part, grown)) = nearest {
-            part.extend(points);
-            *grown = hull(part).unwrap_or_default();
-        }
-    }
-    all.into_iter().map(|(_, hull)| hull).collect()
 }
 
 /// A box, or a compound of the asset's cells, in the body frame.

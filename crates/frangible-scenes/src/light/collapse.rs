@@ -5,9 +5,10 @@ use std::collections::BinaryHeap;
 
 use frangible::glam::DVec3;
 use frangible::internals::RenderMesh;
-use frangible::internals::mesh::closest_on_triangle;
 
-use super::topology::{INNER, Topology, is_between};
+use super::near::Full;
+use super::quadric::Quadric;
+use super::topology::{MADE, Topology, is_between};
 
 /// Least cosine between the normals of a face before and after.
 const TURN: f64 = 0.3;
@@ -21,59 +22,8 @@ const EXACT: f64 = 1e-3;
 /// Twice the area of the thinnest face that a collapse may make, in squares of its longest side.
 const THIN: f64 = 0.02;
 
-/// Sum of the squared distances from planes, weighted by area.
-#[derive(Clone, Copy, Default)]
-struct Quadric {
-    /// Upper half of the symmetric matrix.
-    squares: [f64; 6],
-    linear: DVec3,
-    constant: f64,
-    weight: f64,
-}
-
-impl Quadric {
-    fn of_plane(point: DVec3, normal: DVec3, weight: f64) -> Self {
-        let (n, d) = (normal, -normal.dot(point));
-        Self {
-            squares: [
-                n.x * n.x,
-                n.x * n.y,
-                n.x * n.z,
-                n.y * n.y,
-                n.y * n.z,
-                n.z * n.z,
-            ]
-            .map(|x| x * weight),
-            linear: weight * d * n,
-            constant: weight * d * d,
-            weight,
-        }
-    }
-
-    fn add(&mut self, other: &Self) {
-        for (own, more) in self.squares.iter_mut().zip(other.squares) {
-            *own += more;
-        }
-        self.linear += other.linear;
-        self.constant += other.constant;
-        self.weight += other.weight;
-    }
-
-    /// Mean of the squared distances.
-    fn at(&self, p: DVec3) -> f64 {
-        let [xx, xy, xz, yy, yz, zz] = self.squares;
-        let square = xx * p.x * p.x
-            + yy * p.y * p.y
-            + zz * p.z * p.z
-            + 2.0 * (xy * p.x * p.y + xz * p.x * p.z + yz * p.y * p.z);
-        let sum = square + 2.0 * self.linear.dot(p) + self.constant;
-        if self.weight > 0.0 {
-            (sum / self.weight).max(0.0)
-        } else {
-            0.0
-        }
-    }
-}
+/// Rounds in which all moves are tried.
+const PASSES: usize = 4;
 
 /// A place that may move to another: bits of the squared distance, which are in its order, the two places, and how often they had changed.
 type Candidate = Reverse<(u64, [u32; 2], [u32; 2])>;
@@ -81,21 +31,20 @@ type Candidate = Reverse<(u64, [u32; 2], [u32; 2])>;
 struct Work<'a> {
     mesh: &'a RenderMesh,
     topology: &'a mut Topology,
+    full: &'a mut Full,
     at: Vec<DVec3>,
     quadrics: Vec<Quadric>,
     /// Number of changes of each vertex so far.
     changes: Vec<u32>,
     heap: BinaryHeap<Candidate>,
-    /// Places of the full mesh that have moved to each place.
-    absorbed: Vec<Vec<DVec3>>,
-    /// Largest distance that such a place may have, squared, and the same where the outer surface must not change.
-    most: [f64; 2],
+    /// Squared distance that counts as none, m².
+    exact: f64,
 }
 
-/// Moves places onto neighbours, as long as the faces around them stay within `most`, m, of where they were.
-pub(super) fn collapse(mesh: &RenderMesh, topology: &mut Topology, most: f64) {
+/// Moves places onto neighbours, or both to a place between, as long as the two meshes stay within `most`, m, of each other.
+pub(super) fn collapse(mesh: &RenderMesh, topology: &mut Topology, full: &mut Full, most: f64) {
     let at: Vec<DVec3> = topology.places.iter().map(|p| p.as_dvec3()).collect();
-    let mut quadrics = vec![Quadric::default(); at.len()];
+    let mut quadrics = vec![Quadric::ZERO; at.len()];
     for face in &topology.faces {
         let [a, b, c] = face.places.map(|p| at[p as usize]);
         let across = (b - a).cross(c - a);
@@ -110,27 +59,43 @@ pub(super) fn collapse(mesh: &RenderMesh, topology: &mut Topology, most: f64) {
     let mut work = Work {
         changes: vec![0; at.len()],
         heap: BinaryHeap::new(),
-        absorbed: vec![Vec::new(); at.len()],
-        most: [most, EXACT * most].map(|most| most * most),
+        exact: (EXACT * most).powi(2),
         mesh,
         topology,
+        full,
         at,
         quadrics,
     };
-    for from in 0..work.at.len() as u32 {
-        for to in work.neighbours(from) {
-            work.offer(from, to);
+    // What could not move may be able to once others have moved.
+    for _ in 0..PASSES {
+        if !work.pass() {
+            break;
         }
     }
-    while let Some(Reverse((_, [from, to], changes))) = work.heap.pop() {
-        let now = [from, to].map(|place| work.changes[place as usize]);
-        if now == changes {
-            work.try_to_move(from, to);
-        }
-    }
+    let places = work.at.iter().map(|p| p.as_vec3()).collect();
+    topology.places = places;
 }
 
 impl Work<'_> {
+    /// Tries all moves, the least first. Returns true if there was one.
+    fn pass(&mut self) -> bool {
+        for from in 0..self.at.len() as u32 {
+            for to in self.neighbours(from) {
+                self.offer(from, to);
+            }
+        }
+        let mut moved = false;
+        while let Some(Reverse((_, [from, to], changes))) = self.heap.pop() {
+            let now = [from, to].map(|place| self.changes[place as usize]);
+            if now == changes {
+                let targets = self.targets(from, to);
+                let mut targets = targets.into_iter();
+                moved |= targets.any(|target| self.try_to_move(from, to, target));
+            }
+        }
+        moved
+    }
+
     /// Places that share a face with one, sorted.
     fn neighbours(&self, place: u32) -> Vec<u32> {
         let around = self.topology.around[place as usize].iter();
@@ -141,23 +106,49 @@ impl Work<'_> {
         neighbours
     }
 
+    /// Returns true if both places may move anywhere.
+    fn are_free(&self, from: u32, to: u32) -> bool {
+        [from, to].iter().all(|&place| self.topology.is_free(place))
+    }
+
+    /// Places to which a place and a neighbour may move together, the best first.
+    fn targets(&self, from: u32, to: u32) -> Vec<DVec3> {
+        let ends = [to, from].map(|place| self.at[place as usize]);
+        if !self.are_free(from, to) {
+            return vec![ends[0]];
+        }
+        let mut sum = self.quadrics[from as usize];
+        sum.add(&self.quadrics[to as usize]);
+        // Positions are stored in single precision, and are compared as such.
+        let best = sum.best(0.5 * (ends[0] + ends[1])).as_vec3().as_dvec3();
+        vec![best, ends[0], ends[1]]
+    }
+
     fn offer(&mut self, from: u32, to: u32) {
         if self.topology.stays[from as usize] {
             return;
         }
         let mut sum = self.quadrics[from as usize];
         sum.add(&self.quadrics[to as usize]);
-        let target = self.at[to as usize];
-        // Far from a place its own planes weigh more than the mean.
-        let cost = sum.at(target).max(self.quadrics[from as usize].at(target));
-        if !self.topology.is_outer(from) || cost <= self.most[1] {
+        let cost = if self.are_free(from, to) {
+            if from > to {
+                return;
+            }
+            sum.at(self.targets(from, to)[0])
+        } else {
+            // Far from a place its own planes weigh more than the mean.
+            let target = self.at[to as usize];
+            sum.at(target).max(self.quadrics[from as usize].at(target))
+        };
+        if !self.topology.is_authored(from) || cost <= self.exact {
             let changes = [from, to].map(|place| self.changes[place as usize]);
             self.heap
                 .push(Reverse((cost.to_bits(), [from, to], changes)));
         }
     }
 
-    fn try_to_move(&mut self, from: u32, to: u32) {
+    /// Moves both places to a target if nothing forbids it.
+    fn try_to_move(&mut self, from: u32, to: u32, target: DVec3) -> bool {
         let (mut shared, mut others) = (Vec::new(), Vec::new());
         for &face in &self.topology.around[from as usize] {
             let places = self.topology.faces[face as usize].places;
@@ -169,21 +160,63 @@ impl Work<'_> {
             list.push(face);
         }
         let Some(wedges) = self.wedges_after([from, to], &shared, &others) else {
-            return;
+            return false;
         };
-        let is_sound = shared.len() == 2 && self.common_neighbours(from, to) == 2;
-        let is_kept = || {
-            !self.topology.is_outer(from) || self.is_seen_as_before([from, to], &others, &wedges)
-        };
-        let is_near = || self.is_near([from, to], &others);
-        if !is_sound
-            || !is_kept()
-            || !is_near()
-            || !others.iter().all(|&face| self.may_change(face, from, to))
-        {
-            return;
+        if shared.len() != 2 || self.common_neighbours(from, to) != 2 {
+            return false;
         }
-        for &face in &shared {
+        if self.topology.is_authored(from) && !self.is_seen_as_before([from, to], &others, &wedges)
+        {
+            return false;
+        }
+        let moves = target != self.at[to as usize];
+        let near_to = self.topology.around[to as usize].iter();
+        let beside: Vec<u32> = near_to
+            .copied()
+            .filter(|face| !shared.contains(face))
+            .collect();
+        let after = |&face: &u32| {
+            let places = self.topology.faces[face as usize].places;
+            let corner = |place| match place == from || place == to {
+                true => target,
+                false => self.at[place as usize],
+            };
+            (face, places.map(corner))
+        };
+        let faces: Vec<(u32, [DVec3; 3])> = others.iter().chain(&beside).map(after).collect();
+        let changed = if moves {
+            &faces[..]
+        } else {
+            &faces[..others.len()]
+        };
+        if !changed
+            .iter()
+            .all(|&(face, after)| self.may_change(face, after))
+        {
+            return false;
+        }
+        let Some(shares) = self.full.shared_out(&shared, &faces) else {
+            return false;
+        };
+        let middle = |&(_, [a, b, c]): &(u32, [DVec3; 3])| self.full.is_near((a + b + c) / 3.0);
+        if (moves && !self.full.is_near(target)) || !changed.iter().all(middle) {
+            return false;
+        }
+        self.full.take(&shared, &faces, shares);
+        self.merge([from, to], target, &shared, &others, wedges);
+        true
+    }
+
+    /// Gives the faces of a place to another, and moves that to the target.
+    fn merge(
+        &mut self,
+        [from, to]: [u32; 2],
+        target: DVec3,
+        shared: &[u32],
+        others: &[u32],
+        wedges: Vec<u32>,
+    ) {
+        for &face in shared {
             let places = self.topology.faces[face as usize].places;
             self.topology.faces[face as usize].is_left = false;
             for place in places {
@@ -198,9 +231,7 @@ impl Work<'_> {
             self.topology.around[to as usize].push(face);
         }
         self.topology.around[from as usize].clear();
-        let mut absorbed = std::mem::take(&mut self.absorbed[from as usize]);
-        absorbed.push(self.at[from as usize]);
-        self.absorbed[to as usize].append(&mut absorbed);
+        self.at[to as usize] = target;
         let quadric = self.quadrics[from as usize];
         self.quadrics[to as usize].add(&quadric);
         self.changes[from as usize] += 1;
@@ -230,37 +261,6 @@ impl Work<'_> {
         others.iter().map(after).collect()
     }
 
-    /// Returns true if the faces around a place, and what has moved to it, are near those that are left, and these near the former.
-    /// `others`: those that change.
-    fn is_near(&self, [from, to]: [u32; 2], others: &[u32]) -> bool {
-        let corners = |face: u32, moved: bool| {
-            let places = self.topology.faces[face as usize].places;
-            let place = |place| if moved && place == from { to } else { place };
-            places.map(|p| self.at[place(p) as usize])
-        };
-        let around = &self.topology.around;
-        let beside = around[to as usize]
-            .iter()
-            .filter(|&&face| !self.topology.faces[face as usize].places.contains(&from));
-        let beside: Vec<[DVec3; 3]> = beside.map(|&face| corners(face, false)).collect();
-        let before: Vec<_> = (around[from as usize].iter())
-            .map(|&face| corners(face, false))
-            .collect();
-        let after: Vec<_> = others.iter().map(|&face| corners(face, true)).collect();
-        let is_near = |point: DVec3, faces: &[[DVec3; 3]]| {
-            faces.iter().chain(&beside).any(|&[a, b, c]| {
-                let [u, v, w] = closest_on_triangle([a, b, c], point);
-                (a * u + b * v + c * w).distance_squared(point) <= self.most[0]
-            })
-        };
-        let middle = |[a, b, c]: [DVec3; 3]| (a + b + c) / 3.0;
-        let absorbed = &self.absorbed[from as usize];
-        is_near(self.at[from as usize], &after)
-            && absorbed.iter().all(|&point| is_near(point, &after))
-            && before.iter().all(|&face| is_near(middle(face), &after))
-            && after.iter().all(|&face| is_near(middle(face), &before))
-    }
-
     /// Returns true if the outer surface without a place is where it was, and looks as it did. `wedges`: those of its faces after the move.
     fn is_seen_as_before(&self, [from, to]: [u32; 2], others: &[u32], wedges: &[u32]) -> bool {
         let p = self.at[from as usize];
@@ -274,7 +274,7 @@ impl Work<'_> {
             let (mut corners, mut of) = (face.places.map(|v| self.at[v as usize]), face.wedges);
             corners[k] = self.at[to as usize];
             of[k] = after;
-            let Some(weights) = weights(corners, p, self.most[1]) else {
+            let Some(weights) = weights(corners, p, self.exact) else {
                 return false;
             };
             is_between(
@@ -305,12 +305,10 @@ impl Work<'_> {
             .count()
     }
 
-    /// Returns true if a face neither turns over nor gets too thin.
-    fn may_change(&self, face: u32, from: u32, to: u32) -> bool {
+    /// Returns true if a face neither turns over nor gets too thin with these corners.
+    fn may_change(&self, face: u32, after: [DVec3; 3]) -> bool {
         let face = &self.topology.faces[face as usize];
         let before = face.places.map(|place| self.at[place as usize]);
-        let mut after = before;
-        after[corner(&face.places, from)] = self.at[to as usize];
         let across = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a);
         let longest = |[a, b, c]: [DVec3; 3]| {
             let sides = [b - a, c - b, a - c];
@@ -325,12 +323,12 @@ impl Work<'_> {
         if shape.is_nan() || shape < THIN.min(old_shape) {
             return false;
         }
-        // A face without area has no normal that it could keep.
-        let turn = if face.wedges[0] == INNER {
+        let turn = if face.wedges[0] >= MADE {
             TURN
         } else {
             OUTER_TURN
         };
+        // A face without area has no normal that it could keep.
         old_shape < 1e-4 || old.dot(new) >= turn * old.length() * new.length()
     }
 }

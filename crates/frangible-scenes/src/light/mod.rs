@@ -1,47 +1,47 @@
 //! Lighter meshes of pieces: fewer triangles on crack faces, the outer surface as its author drew it.
 //!
-//! Corners of crack faces are moved onto a neighbour, those first that change the surface least (quadric error, Garland, Heckbert 1997, with
-//! corners in place of best points, so that attributes stay exact). Corners between the outer surface and a crack face move only along their
-//! border. Corners of the outer surface alone stay, unless it is the same without them, in place and in every attribute. The mesh stays closed
-//! where it was. The distance from the full mesh is measured, not estimated, and a mesh that is too coarse is made anew.
+//! Edges of crack faces are collapsed, those first that change the surface least (quadric error, Garland, Heckbert 1997), each to the place that
+//! fits best. Corners between the outer surface and a crack face move only along their border, onto a neighbour. Corners of an outer surface that its
+//! author drew stay, unless it is the same without them, in place and in every attribute; one that the mesher made is simplified like crack faces.
+//! The mesh stays closed where it was.
+//!
+//! The distance between the two meshes is measured at the corners and middles of the triangles of each, for every collapse before it is made. So the
+//! largest distance is always kept, and a collapse that keeps it is never left out because of an estimate.
 
 mod collapse;
+mod near;
+mod quadric;
 mod topology;
 
 use std::collections::BTreeMap;
 
 use frangible::glam::Vec3;
-use frangible::internals::mesh::{TriangleTree, smooth_normals};
+use frangible::internals::mesh::smooth_normals;
 use frangible::internals::{RenderMesh, box_projection};
 
 use collapse::collapse;
-use topology::{INNER, Topology};
-
-/// Distance that a collapse may cause, of the tolerance, at the first try.
-const FIRST: f64 = 0.8;
-
-/// Each further try allows this part of the one before.
-const FINER: f64 = 0.7;
-
-const TRIES: u32 = 4;
+use near::Full;
+use topology::{INNER, MADE, Topology};
 
 /// The mesh with simplified crack faces, and its largest distance from the given one, m: at most the tolerance.
 ///
-/// `origin` is the origin of the mesh in the frame of the box projection, m.
-pub(crate) fn lightened(mesh: &RenderMesh, origin: Vec3, tolerance: f32) -> (RenderMesh, f32) {
-    let full = Topology::of(mesh);
-    let mut share = FIRST;
-    for _ in 0..TRIES {
-        let mut topology = full.clone();
-        collapse(mesh, &mut topology, share * f64::from(tolerance));
-        let light = drawn(mesh, &topology, origin);
-        let error = distance(mesh, &light);
-        if error <= tolerance {
-            return (light, error);
-        }
-        share *= FINER;
+/// `origin` is the origin of the mesh in the frame of the box projection, m. `is_drawn`: its outer surface is its author's.
+pub(crate) fn lightened(
+    mesh: &RenderMesh,
+    origin: Vec3,
+    is_drawn: bool,
+    tolerance: f32,
+) -> (RenderMesh, f32) {
+    let mut topology = Topology::of(mesh, is_drawn);
+    let mut full = Full::new(&topology, f64::from(tolerance));
+    collapse(mesh, &mut topology, &mut full, f64::from(tolerance));
+    let light = drawn(mesh, &topology, origin);
+    let error = full.distance(&light.positions, &light.triangles);
+    if error <= tolerance {
+        (light, error)
+    } else {
+        (mesh.clone(), 0.0)
     }
-    (mesh.clone(), 0.0)
 }
 
 /// The triangles that are left, as a mesh.
@@ -53,7 +53,7 @@ fn drawn(mesh: &RenderMesh, topology: &Topology, origin: Vec3) -> RenderMesh {
     // The vertex of the light mesh for each of the full one.
     let mut number = vec![u32::MAX; mesh.positions.len()];
     let left = || topology.faces.iter().filter(|face| face.is_left);
-    for face in left().filter(|face| face.wedges[0] != INNER) {
+    for face in left().filter(|face| face.wedges[0] < MADE) {
         let corners = face.wedges.map(|wedge| {
             let source = topology.wedges[wedge as usize].vertex as usize;
             if number[source] == u32::MAX {
@@ -72,17 +72,31 @@ fn drawn(mesh: &RenderMesh, topology: &Topology, origin: Vec3) -> RenderMesh {
         let material = mesh.material_of_triangle.get(face.source as usize);
         light.material_of_triangle.extend(material);
     }
+    let of = |kind: u32| -> Vec<[u32; 3]> {
+        let faces = left().filter(|face| face.wedges[0] == kind);
+        faces.map(|face| face.places).collect()
+    };
+    let has_colors = !mesh.colors.is_empty();
+    add(&mut light, &topology.places, &of(MADE), has_colors, origin);
     light.outer_triangles = light.triangles.len();
-    let inner: Vec<[u32; 3]> = left()
-        .filter(|face| face.wedges[0] == INNER)
-        .map(|face| face.places)
-        .collect();
+    add(&mut light, &topology.places, &of(INNER), has_colors, origin);
+    light
+}
+
+/// Adds triangles whose attributes are made anew: smooth normals, texture coordinates by box projection, white.
+fn add(
+    light: &mut RenderMesh,
+    at: &[Vec3],
+    triangles: &[[u32; 3]],
+    has_colors: bool,
+    origin: Vec3,
+) {
     let mut known = BTreeMap::new();
-    for (places, normals) in inner.iter().zip(smooth_normals(&topology.places, &inner)) {
-        let [a, b, c] = places.map(|p| topology.places[p as usize]);
+    for (places, normals) in triangles.iter().zip(smooth_normals(at, triangles)) {
+        let [a, b, c] = places.map(|p| at[p as usize]);
         let flat = (b - a).cross(c - a).normalize_or(normals[0]);
         let corner = |k: usize| {
-            let (position, normal) = (topology.places[places[k] as usize], normals[k]);
+            let (position, normal) = (at[places[k] as usize], normals[k]);
             let uv = box_projection(position + origin, flat);
             let bits = |x: f32| (x + 0.0).to_bits();
             let key = (places[k], normal.to_array().map(bits), uv.map(bits));
@@ -93,7 +107,7 @@ fn drawn(mesh: &RenderMesh, topology: &Topology, origin: Vec3) -> RenderMesh {
                 for uvs in &mut light.more_uvs {
                     uvs.push([0.0; 2]);
                 }
-                if !mesh.colors.is_empty() {
+                if has_colors {
                     light.colors.push([1.0; 4]);
                 }
                 light.positions.len() as u32 - 1
@@ -101,28 +115,9 @@ fn drawn(mesh: &RenderMesh, topology: &Topology, origin: Vec3) -> RenderMesh {
         };
         light.triangles.push([0, 1, 2].map(corner));
     }
-    light
 }
 
-/// Largest distance between two meshes, at the corners and middles of the triangles of each, m.
-fn distance(full: &RenderMesh, light: &RenderMesh) -> f32 {
-    let one_way = |from: &RenderMesh, to: &RenderMesh| {
-        let tree = TriangleTree::new(&to.positions, &to.triangles);
-        let corners = from.positions.iter().copied();
-        let middles = from.triangles.iter().map(|t| {
-            let [a, b, c] = t.map(|v| from.positions[v as usize]);
-            (a + b + c) / 3.0
-        });
-        corners
-            .chain(middles)
-            .map(|p| tree.closest(p).position.distance(p))
-            .fold(0.0, f32::max)
-    };
-    if full.triangles.is_empty() || light.triangles.is_empty() {
-        return f32::INFINITY;
-    }
-    one_way(full, light).max(one_way(light, full))
-}
-
+#[cfg(test)]
+mod measured;
 #[cfg(test)]
 mod tests;

@@ -6,6 +6,7 @@ use frangible::glam::Vec3;
 use frangible::internals::RenderMesh;
 
 use super::lightened;
+use crate::output::{TOLERANCE, WANTED_OF_DRAWN, WANTED_OF_PIECE};
 
 /// Cells of the top along a side.
 const N: usize = 40;
@@ -126,14 +127,14 @@ fn closed_volume(mesh: &RenderMesh) -> f64 {
 fn crack_faces_get_few_triangles_and_stay_where_they_were() {
     let full = block(0.002);
     let volume = closed_volume(&full);
-    let (light, error) = lightened(&full, Vec3::ZERO, 0.005);
+    let (light, error) = lightened(&full, Vec3::ZERO, true, 0.005);
     assert!(error > 0.0 && error <= 0.005, "{error}");
     assert!((closed_volume(&light) / volume - 1.0).abs() < 0.005);
     let inner = light.triangles.len() - light.outer_triangles;
     assert!(inner < 200, "{inner} of {} triangles", 2 * N * N);
     // The rim lies in planes: few corners of it are left.
     assert!(light.outer_triangles < 60, "{}", light.outer_triangles);
-    let again = lightened(&full, Vec3::ZERO, 0.005);
+    let again = lightened(&full, Vec3::ZERO, true, 0.005);
     assert_eq!((light, error), again);
 }
 
@@ -141,18 +142,27 @@ fn crack_faces_get_few_triangles_and_stay_where_they_were() {
 fn a_surface_rougher_than_the_tolerance_keeps_its_shape() {
     let full = block(0.05);
     for tolerance in [0.02, 0.005, 0.001] {
-        let (light, error) = lightened(&full, Vec3::ZERO, tolerance);
+        let (light, error) = lightened(&full, Vec3::ZERO, true, tolerance);
         assert!(error <= tolerance, "{error} of {tolerance}");
         closed_volume(&light);
     }
-    let count = |tolerance| lightened(&full, Vec3::ZERO, tolerance).0.triangles.len();
+    let count = |tolerance| {
+        lightened(&full, Vec3::ZERO, true, tolerance)
+            .0
+            .triangles
+            .len()
+    };
     assert!(count(0.02) < count(0.005));
+    // The error comes before the wanted number of triangles.
+    let wanted = WANTED_OF_DRAWN * full.outer_triangles + WANTED_OF_PIECE;
+    let least = count(TOLERANCE);
+    assert!(least > wanted, "{least} of {wanted}");
 }
 
 #[test]
 fn the_outer_surface_keeps_its_shape_and_attributes() {
     let full = block(0.002);
-    let (light, _) = lightened(&full, Vec3::ZERO, 0.005);
+    let (light, _) = lightened(&full, Vec3::ZERO, true, 0.005);
     // The lower corners of the block.
     for corner in [Vec3::ZERO, Vec3::X, Vec3::Z, Vec3::X + Vec3::Z] {
         assert!(light.positions.contains(&corner), "{corner}");

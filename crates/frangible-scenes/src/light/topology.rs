@@ -5,8 +5,11 @@ use std::collections::HashMap;
 use frangible::glam::Vec3;
 use frangible::internals::RenderMesh;
 
-/// Wedge of all corners of crack faces, whose attributes are made anew.
+/// Wedge of all corners of crack faces. Their attributes, and those of [`MADE`] corners, are made anew.
 pub(super) const INNER: u32 = u32::MAX;
+
+/// Wedge of all corners of an outer surface that no one drew, but the mesher made.
+pub(super) const MADE: u32 = INNER - 1;
 
 /// Attributes of corners that differ by less than this are one.
 const ALIKE: f32 = 1e-3;
@@ -40,7 +43,8 @@ pub(super) struct Topology {
 }
 
 impl Topology {
-    pub(super) fn of(mesh: &RenderMesh) -> Self {
+    /// `is_drawn`: the outer surface is its author's.
+    pub(super) fn of(mesh: &RenderMesh, is_drawn: bool) -> Self {
         let mut topology = Self::default();
         // Looked up only, never iterated.
         let mut known = HashMap::new();
@@ -65,7 +69,8 @@ impl Topology {
                 continue;
             }
             let material = mesh.material_of_triangle.get(source as usize).copied();
-            let wedges = if (source as usize) < mesh.outer_triangles {
+            let is_outer = (source as usize) < mesh.outer_triangles;
+            let wedges = if is_outer && is_drawn {
                 [0, 1, 2].map(|k| {
                     let wedge = Wedge {
                         vertex: triangle[k],
@@ -74,7 +79,7 @@ impl Topology {
                     topology.wedge(mesh, wedge, &mut wedges_at[places[k] as usize])
                 })
             } else {
-                [INNER; 3]
+                [if is_outer { MADE } else { INNER }; 3]
             };
             let number = topology.faces.len() as u32;
             for place in places {
@@ -106,10 +111,19 @@ impl Topology {
         number
     }
 
-    /// Returns true for a place of the outer surface alone.
-    pub(super) fn is_outer(&self, place: u32) -> bool {
+    /// Returns true for a place of the outer surface alone, if its author drew it.
+    pub(super) fn is_authored(&self, place: u32) -> bool {
         let mut faces = self.around[place as usize].iter();
-        faces.all(|&face| self.faces[face as usize].wedges[0] != INNER)
+        faces.all(|&face| self.faces[face as usize].wedges[0] < MADE)
+    }
+
+    /// Returns true for a place of crack faces alone, or of a surface that no one drew.
+    pub(super) fn is_free(&self, place: u32) -> bool {
+        let mut faces = self.around[place as usize].iter();
+        let kind = |face: u32| self.faces[face as usize].wedges[0];
+        let first = faces.next().map(|&face| kind(face));
+        !self.stays[place as usize]
+            && first.is_some_and(|first| first >= MADE && faces.all(|&face| kind(face) == first))
     }
 
     /// Places at sides that do not have two faces.

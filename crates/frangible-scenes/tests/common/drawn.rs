@@ -68,6 +68,8 @@ pub(crate) struct Closed {
     pub(crate) name: String,
     /// Sides of triangles that do not have exactly two faces, once in each direction.
     pub(crate) open_sides: usize,
+    /// Its own volume, m³.
+    pub(crate) volume: f64,
     /// Difference of the volume in its surface from its own, over its own.
     pub(crate) volume_off: f64,
 }
@@ -100,6 +102,7 @@ pub(crate) fn closed(recording: &Recording) -> Vec<Closed> {
         Some(Closed {
             name: node.name.clone(),
             open_sides: sides.values().filter(|&&count| count != [1, 1]).count(),
+            volume,
             volume_off: (drawn_volume / volume - 1.0).abs(),
         })
     });

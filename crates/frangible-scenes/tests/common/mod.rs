@@ -1,6 +1,7 @@
 //! Bodies baked once per test program, and blows on them.
 
 pub(crate) mod drawn;
+pub(crate) mod made;
 
 use std::sync::{Arc, OnceLock};
 

@@ -18,7 +18,7 @@ use crate::modal::ModalBasis;
 
 pub use crate::mesh::{
     Blending, Image, ImageKind, Placement, RenderMaterial, RenderSurface, Texture, TextureSlot,
-    Wrap,
+    Wrap, linear_color,
 };
 pub use bounds::StressBounds;
 pub(crate) use embedding::carriers;
