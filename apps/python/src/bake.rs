@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use frangible::Material;
 use frangible::glam::DVec3;
 use frangible_bake::frangible_mesh::{self, InputGroup, InputMesh, PartChoice, Similarity};
-use frangible_bake::{BakeError, BakeSpec, CancelToken, ImportOptions, Progress, import_parts};
+use frangible_bake::{BakeError, BakeSpec, CancelToken, ImportOptions, Progress, import_parts, Baked};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
@@ -110,7 +110,7 @@ pub(crate) fn bake<'py>(
                 ..BakeSpec::new(name, part.body.shape, material.clone())
             };
             spec.modes = modes.unwrap_or(spec.modes);
-            let baked = frangible_bake::bake(&spec, &mut progress).map_err(refused)?;
+            let baked = frangible_bake::bake_with(&spec, &mut progress).map_err(refused)?;
             done.push((baked, part.body.similarity));
         }
         Ok(done)
@@ -118,7 +118,7 @@ pub(crate) fn bake<'py>(
     if let Some(error) = stopped {
         return Err(error);
     }
-    let bodies = done?.into_iter().map(|((asset, report), similarity)| {
+    let bodies = done?.into_iter().map(|(Baked { asset, report }, similarity)| {
         let Similarity { scale, shift } = similarity;
         let offset = numbers(py, (shift - report.centre).to_array());
         Ok((Kind::new(asset)?, scale, offset))

@@ -8,7 +8,7 @@ use frangible::internals::blow::Blow;
 use frangible::internals::contact::modal_load;
 use frangible::internals::stress::{Symmetric3, largest_eigenvalue, largest_eigenvalue_bound};
 use frangible::{Asset, Breakable, Contact, FractureConfig, Material, Striker};
-use frangible_bake::{BakeSpec, Shape, bake, stress_rows};
+use frangible_bake::{BakeSpec, Baked, Shape, bake_with, stress_rows};
 
 type Failure = Box<dyn std::error::Error>;
 
@@ -64,7 +64,7 @@ fn measure(subject: &Subject, kept: usize, counts: &[usize]) -> Result<(), Failu
         modes: kept,
         ..BakeSpec::new(subject.shape, shape, material)
     };
-    let (asset, report) = bake(&spec, &mut |_| {})?;
+    let Baked { asset, report } = bake_with(&spec, |_| {})?;
     println!(
         "\n{}: {:.2} kg, {} tetrahedra, {} elements, {} modes from {:.0} to {:.0} Hz, {} followed by choice",
         subject.shape,

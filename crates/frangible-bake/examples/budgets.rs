@@ -31,7 +31,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("|---|---|---|---|---|---|");
     for spec in specs {
         let start = Instant::now();
-        let (asset, _) = bake(&spec, &mut |_| {})?;
+        let asset = bake(&spec)?;
         let baked = start.elapsed().as_secs_f64();
         let kind = Breakable::new(asset)?;
         let (tets, modes) = (kind.asset().fracture.tets.len(), spec.modes);

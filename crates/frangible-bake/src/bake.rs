@@ -113,17 +113,36 @@ const GAME_TETS: f64 = 1500.0;
 /// Modes of a body for games.
 const GAME_MODES: usize = 40;
 
+/// An asset and the report of its bake.
+#[derive(Clone, Debug)]
+pub struct Baked {
+    /// The asset.
+    pub asset: Asset,
+    /// Report of the bake: meshes, frequencies, times, and the position of the body frame in the frame of the shape.
+    pub report: BakeReport,
+}
+
 /// Bakes an asset: makes the two meshes, computes the vibration modes, and maps the meshes to each other.
 ///
-/// The body frame has its origin at the centre of mass of the fracture mesh and the axes of the shape.
+/// The body frame has its origin at the centre of mass of the fracture mesh and the axes of the shape. [`bake_with`] also returns a report.
 ///
 /// # Errors
 /// The first invalid number, station, mode or point, with a hint how to fix it; [`BakeError::Cancelled`] after a cancellation by
 /// [`BakeSpec::cancel`].
-pub fn bake(
-    spec: &BakeSpec,
-    progress: &mut dyn FnMut(Progress),
-) -> Result<(Asset, BakeReport), BakeError> {
+pub fn bake(spec: &BakeSpec) -> Result<Asset, BakeError> {
+    Ok(bake_with(spec, |_| {})?.asset)
+}
+
+/// Bakes an asset like [`bake()`], calls `progress` at every advance, and also returns the report of the bake.
+///
+/// # Errors
+/// The errors of [`bake()`].
+pub fn bake_with(spec: &BakeSpec, mut progress: impl FnMut(Progress)) -> Result<Baked, BakeError> {
+    check(spec)?;
+    baked(spec, &mut progress)
+}
+
+fn check(spec: &BakeSpec) -> Result<(), BakeError> {
     spec.material.validate().map_err(InputError::from)?;
     if spec.modes == 0 {
         return Err(BakeError::Modes {
@@ -146,7 +165,10 @@ pub fn bake(
         });
     }
     check_supports(&spec.supports)?;
-    check_groups(&spec.supports, &spec.groups)?;
+    check_groups(&spec.supports, &spec.groups)
+}
+
+fn baked(spec: &BakeSpec, progress: &mut dyn FnMut(Progress)) -> Result<Baked, BakeError> {
     let mut clock = Clock {
         started: Instant::now(),
         seconds: Vec::new(),
@@ -282,7 +304,7 @@ pub fn bake(
         mode_seconds: modes.seconds,
     };
     asset.validate()?;
-    Ok((asset, report))
+    Ok(Baked { asset, report })
 }
 
 /// The fine mesh in the frame of the shape, and the elements that are to carry its modes.

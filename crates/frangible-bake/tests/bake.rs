@@ -4,7 +4,7 @@ use std::process::Command;
 
 use frangible::glam::DVec3;
 use frangible::{Asset, Material};
-use frangible_bake::{BakeError, BakeReport, BakeSpec, MeshSize, Shape, Stage, bake};
+use frangible_bake::{BakeError, BakeSpec, Baked, MeshSize, Shape, Stage, bake, bake_with};
 
 fn small_glass() -> BakeSpec {
     let mut spec = BakeSpec::new(
@@ -68,7 +68,7 @@ fn hash(asset: &Asset) -> u64 {
 #[test]
 fn an_asset_holds_together() {
     let mut stages = Vec::new();
-    let (asset, report) = bake(&small_glass(), &mut |p| {
+    let Baked { asset, report } = bake_with(&small_glass(), |p| {
         assert!((0.0..=1.0).contains(&p.fraction), "{p:?}");
         stages.push(p.stage);
     })
@@ -143,7 +143,7 @@ fn curvature_is_flat_inside_a_face_small_at_edges_and_right_on_a_cylinder() {
         edge: 0.01,
         layers: 0,
     });
-    let (block, _) = bake(&spec, &mut |_| {}).unwrap();
+    let block = bake(&spec).unwrap();
     for (triangle, radius) in block
         .surface
         .triangles
@@ -157,7 +157,7 @@ fn curvature_is_flat_inside_a_face_small_at_edges_and_right_on_a_cylinder() {
         let expected = if on_edge { 0.003 } else { f32::INFINITY };
         assert_eq!(*radius, expected);
     }
-    let (glass, _) = bake(&small_glass(), &mut |_| {}).unwrap();
+    let glass = bake(&small_glass()).unwrap();
     let middle = |t: &[u32; 3]| {
         t.iter()
             .map(|&v| glass.fracture.positions[v as usize])
@@ -190,7 +190,7 @@ fn curvature_is_flat_inside_a_face_small_at_edges_and_right_on_a_cylinder() {
 
 #[test]
 fn two_bakes_give_the_same_bits() {
-    let bake = || hash(&bake(&small_glass(), &mut |_| {}).unwrap().0);
+    let bake = || hash(&bake(&small_glass()).unwrap());
     assert_eq!(bake(), bake());
 }
 
@@ -198,10 +198,7 @@ fn two_bakes_give_the_same_bits() {
 fn the_number_of_threads_does_not_show() {
     const CHILD: &str = "FRANGIBLE_BAKE_HASH";
     if std::env::var_os(CHILD).is_some() {
-        println!(
-            "hash {:016x}",
-            hash(&bake(&small_glass(), &mut |_| {}).unwrap().0)
-        );
+        println!("hash {:016x}", hash(&bake(&small_glass()).unwrap()));
         return;
     }
     // Thread pools are sized once per process, so each count gets a process of its own.
@@ -232,23 +229,23 @@ fn bad_input_is_refused_with_a_way_out() {
     let mut spec = small_glass();
     spec.modes = 0;
     assert!(matches!(
-        bake(&spec, &mut |_| {}),
+        bake(&spec),
         Err(BakeError::Modes { wanted: 0, .. })
     ));
     for density in [0.0, -1.0, f64::NAN] {
         let mut spec = small_glass();
         spec.material.density = density;
         assert!(
-            matches!(bake(&spec, &mut |_| {}), Err(BakeError::Input(_))),
+            matches!(bake(&spec), Err(BakeError::Input(_))),
             "density {density}"
         );
     }
     let mut spec = small_glass();
     spec.material.poisson_ratio = 0.5;
-    assert!(matches!(bake(&spec, &mut |_| {}), Err(BakeError::Input(_))));
+    assert!(matches!(bake(&spec), Err(BakeError::Input(_))));
     let mut spec = small_glass();
     spec.modes = 1_000_000;
-    let error = bake(&spec, &mut |_| {}).unwrap_err();
+    let error = bake(&spec).unwrap_err();
     assert!(
         matches!(
             error,
@@ -265,7 +262,7 @@ fn bad_input_is_refused_with_a_way_out() {
         layers: 1,
     });
     spec.modes = 10;
-    let error = bake(&spec, &mut |_| {}).unwrap_err();
+    let error = bake(&spec).unwrap_err();
     assert!(
         matches!(
             error,
@@ -276,10 +273,7 @@ fn bad_input_is_refused_with_a_way_out() {
 }
 
 /// A small plate; more than 60 modes, so that the bake chooses.
-fn plate_of(
-    modes: usize,
-    followed: Option<usize>,
-) -> Result<(frangible::Asset, BakeReport), BakeError> {
+fn plate_of(modes: usize, followed: Option<usize>) -> Result<Baked, BakeError> {
     let shape = Shape::plate(0.1, 0.08, 0.008);
     let spec = BakeSpec {
         modes,
@@ -288,21 +282,22 @@ fn plate_of(
         fracture: Some(shape.size_for(3000.0).unwrap()),
         ..BakeSpec::new("plate", shape, Material::preset("glass").unwrap())
     };
-    bake(&spec, &mut |_| {})
+    bake_with(&spec, |_| {})
 }
 
 #[test]
 fn the_bake_chooses_how_many_modes_a_blow_follows() {
-    let (asset, report) = plate_of(90, None).unwrap();
+    let Baked { asset, report } = plate_of(90, None).unwrap();
     assert_eq!((report.modes, asset.modes.count()), (90, 90));
     assert_eq!(report.followed, asset.modes.followed());
     assert!((10..=90).contains(&report.followed), "{}", report.followed);
     // The modes themselves do not hang on the choice.
-    let (told, report) = plate_of(90, Some(33)).unwrap();
-    assert_eq!((report.followed, told.modes.residual_modes), (33, 57));
-    assert_eq!(told.modes.shapes, asset.modes.shapes);
+    let told = plate_of(90, Some(33)).unwrap();
+    let (report, modes) = (told.report, told.asset.modes);
+    assert_eq!((report.followed, modes.residual_modes), (33, 57));
+    assert_eq!(modes.shapes, asset.modes.shapes);
     // Of few modes all are followed.
-    assert_eq!(plate_of(60, None).unwrap().0.modes.residual_modes, 0);
+    assert_eq!(plate_of(60, None).unwrap().asset.modes.residual_modes, 0);
 }
 
 #[test]
@@ -327,7 +322,7 @@ fn a_body_for_games_is_small() {
         ("brick", Shape::block([0.21, 0.1, 0.05])),
     ] {
         let spec = BakeSpec::for_games(name, shape, glass.clone()).unwrap();
-        let (asset, _) = bake(&spec, &mut |_| {}).unwrap();
+        let asset = bake(&spec).unwrap();
         let tets = asset.fracture.tets.len();
         assert!((1200..2500).contains(&tets), "{name}: {tets} tetrahedra");
         assert_eq!(asset.modes.count(), 40, "{name}");

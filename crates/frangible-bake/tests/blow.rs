@@ -25,7 +25,7 @@ fn baked(shape: Shape, material: Material, modes: usize, elements: f64) -> Asset
         fracture: Some(shape.size_for(9000.0).unwrap()),
         ..BakeSpec::new("body", shape, material)
     };
-    bake(&spec, &mut |_| {}).unwrap().0
+    bake(&spec).unwrap()
 }
 
 /// Modes of the brick and of the glass.

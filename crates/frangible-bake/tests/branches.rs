@@ -41,7 +41,7 @@ fn jack() -> Asset {
         analysis: Some(shape.size_for(1500.0).unwrap()),
         ..BakeSpec::new("jack", shape, material)
     };
-    bake(&spec, &mut |_| {}).unwrap().0
+    bake(&spec).unwrap()
 }
 
 /// The largest tension of a blow at places about the root of the arm along (1, 1, 1) and on the hub, Pa.

@@ -134,7 +134,7 @@ fn check(mesh: &InputMesh, tets: usize) -> [f64; 2] {
             Material::preset("porcelain").unwrap(),
         )
     };
-    let (asset, _) = bake(&spec, &mut |_| {}).unwrap();
+    let asset = bake(&spec).unwrap();
     let render = asset.render.clone().unwrap();
     let shift = render.positions[0].as_dvec3() - mesh.positions[0];
     let edge = f64::from(asset.fracture.mean_edge());

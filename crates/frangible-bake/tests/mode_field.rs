@@ -33,7 +33,7 @@ fn block() -> Asset {
         modes: 4,
         ..BakeSpec::new("block", Shape::block([0.1, 0.05, 0.03]), glass)
     };
-    bake(&spec, &mut |_| {}).expect("a baked block").0
+    bake(&spec).expect("a baked block")
 }
 
 /// Two elements that share a face, a point in each, and modes that move every node as these functions say.

@@ -101,7 +101,7 @@ fn solid(size: f64) -> Shape {
 }
 
 fn baked(kind: Kind, size: f64, material: &Material) -> Asset {
-    bake(&spec(kind, size, material), &mut |_| {}).unwrap().0
+    bake(&spec(kind, size, material)).unwrap()
 }
 
 fn start() -> Material {

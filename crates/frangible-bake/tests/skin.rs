@@ -27,7 +27,7 @@ fn baked(shape: Shape, layers: usize, supports: Vec<Support>) -> Asset {
         supports,
         ..BakeSpec::new("body", shape, material)
     };
-    bake(&spec, &mut |_| {}).unwrap().0
+    bake(&spec).unwrap()
 }
 
 fn plate(layers: usize) -> Asset {

@@ -10,8 +10,8 @@ use frangible_bake::frangible_mesh::{
     DistanceSolid, Image, ImageKind, InputMaterial, InputMesh, TetError, Texture, TextureSlot,
 };
 use frangible_bake::{
-    BakeError, BakeReport, BakeSpec, ImportOptions, READY_SHAPES, Shape, SolidShape, bake,
-    import_mesh,
+    BakeError, BakeReport, BakeSpec, Baked, ImportOptions, READY_SHAPES, Shape, SolidShape, bake,
+    bake_with, import_mesh,
 };
 
 const BLOCK: [f64; 3] = [0.1, 0.06, 0.03];
@@ -30,7 +30,7 @@ fn solid(solid: DistanceSolid, tets: usize) -> Shape {
 fn baked(shape: Shape, modes: usize) -> (Asset, BakeReport) {
     let mut spec = BakeSpec::new("body", shape, glass());
     spec.modes = modes;
-    let (asset, report) = bake(&spec, &mut |_| {}).unwrap();
+    let Baked { asset, report } = bake_with(&spec, |_| {}).unwrap();
     asset.validate().unwrap();
     (asset, report)
 }
@@ -299,7 +299,7 @@ fn the_drawn_surface_comes_through_untouched_and_lies_on_the_body() {
             render: imported.render,
             ..BakeSpec::new("box", imported.shape, glass())
         };
-        let (asset, report) = bake(&spec, &mut |_| {}).unwrap();
+        let Baked { asset, report } = bake_with(&spec, |_| {}).unwrap();
         let render = asset.render.as_ref().unwrap();
         assert_eq!(render.positions.len(), mesh.positions.len());
         assert_eq!(render.triangles, mesh.triangles);
@@ -344,7 +344,7 @@ fn walls_too_thin_for_the_limit_are_refused_with_a_number_that_is_enough() {
         (options.tets, options.most) = (tets, most);
         import_mesh(&mesh, &options).unwrap().shape
     };
-    let refused = |shape: Shape| bake(&BakeSpec::new("beaker", shape, glass()), &mut |_| {});
+    let refused = |shape: Shape| bake(&BakeSpec::new("beaker", shape, glass()));
     let error = refused(with(2000, Some(2000))).unwrap_err();
     let BakeError::Tetrahedra(TetError::TooThin { needed, .. }) = error else {
         panic!("{error}");
@@ -352,6 +352,6 @@ fn walls_too_thin_for_the_limit_are_refused_with_a_number_that_is_enough() {
     assert!(needed > 2000 && error.to_string().contains(&needed.to_string()));
     let mut spec = BakeSpec::new("beaker", with(needed, None), glass());
     spec.modes = 2;
-    let (_, report) = bake(&spec, &mut |_| {}).unwrap();
+    let report = bake_with(&spec, |_| {}).unwrap().report;
     assert!(report.fracture.tets <= 3 * needed);
 }

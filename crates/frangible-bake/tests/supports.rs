@@ -11,7 +11,8 @@ use frangible_bake::fem::{
 };
 use frangible_bake::frangible_mesh::InputMesh;
 use frangible_bake::{
-    BakeError, BakeSpec, Group, ImportOptions, MeshSize, Region, Shape, Support, bake, import_mesh,
+    BakeError, BakeSpec, Baked, Group, ImportOptions, MeshSize, Region, Shape, Support, bake,
+    bake_with, import_mesh,
 };
 
 const GLASS: Elasticity = Elasticity {
@@ -212,7 +213,7 @@ fn a_cantilever_of_any_shape_rings_at_its_bending_frequency() {
             supports: vec![Support::clamped(Region::below(0, held))],
             ..BakeSpec::new("bar", bar(free + held, 0.02), glass.clone())
         };
-        let (asset, report) = bake(&spec, &mut |_| {}).unwrap();
+        let Baked { asset, report } = bake_with(&spec, |_| {}).unwrap();
         assert_eq!(report.rigid_motions, 0);
         let reference = cantilever(&Elasticity::from(&glass), free, 0.02);
         for frequency in &report.frequencies[..2] {
@@ -242,7 +243,7 @@ fn springs_that_hold_one_axis_leave_the_motions_across_it() {
         }],
         ..BakeSpec::new("bar", bar(0.1, 0.02), Material::preset("glass").unwrap())
     };
-    let (_, report) = bake(&spec, &mut |_| {}).unwrap();
+    let report = bake_with(&spec, |_| {}).unwrap().report;
     // Along y, along z, about x.
     assert_eq!(report.rigid_motions, 3);
     assert!(report.frequencies[0] > 1000.0, "{:?}", report.frequencies);
@@ -275,7 +276,7 @@ fn an_asset_knows_its_supported_nodes() {
         Support::clamped(Region::below(0, 0.0)),
         Support::clamped(ball),
     ]);
-    let (asset, report) = bake(&spec, &mut |_| {}).unwrap();
+    let Baked { asset, report } = bake_with(&spec, |_| {}).unwrap();
     assert!(asset.is_supported());
     assert!(report.unknowns < 3 * asset.analysis.nodes.len());
     let centre = DVec3::new(0.1, 0.1, 0.005);
@@ -287,7 +288,7 @@ fn an_asset_knows_its_supported_nodes() {
         let near = p.x < 1e-3 || (p.distance(DVec3::new(0.2, 0.2, 0.005)) - 0.03).abs() < 1e-3;
         assert!(supported == inside || near, "node {v} at {p}");
     }
-    let (free, _) = bake(&small_plate(Vec::new()), &mut |_| {}).unwrap();
+    let free = bake(&small_plate(Vec::new())).unwrap();
     assert!(!free.is_supported());
 }
 
@@ -303,7 +304,7 @@ fn a_shelf_that_breaks_leaves_a_piece_in_the_wall() {
         edge: 0.008,
         layers: 1,
     });
-    let (asset, _) = bake(&spec, &mut |_| {}).unwrap();
+    let asset = bake(&spec).unwrap();
     let read = Asset::from_bytes(&asset.to_bytes()).unwrap();
     assert_eq!(read.supported, asset.supported);
     let body = Body::new(read.into(), 1).unwrap();
@@ -364,7 +365,7 @@ fn supports_that_cannot_be_meant_are_errors_that_name_them() {
     ];
     for (region, words) in cases {
         let spec = small_plate(vec![good.clone(), good.clone(), Support::clamped(region)]);
-        let error = bake(&spec, &mut |_| {}).unwrap_err();
+        let error = bake(&spec).unwrap_err();
         assert!(
             matches!(error, BakeError::Support { support: 2, .. }),
             "{error}"
@@ -379,12 +380,10 @@ fn supports_that_cannot_be_meant_are_errors_that_name_them() {
         axes: [false; 3],
         ..good
     };
-    let error = bake(&small_plate(vec![idle]), &mut |_| {})
-        .unwrap_err()
-        .to_string();
+    let error = bake(&small_plate(vec![idle])).unwrap_err().to_string();
     assert!(error.contains("fixes no axis"), "{error}");
     let all = Support::clamped(Region::below(2, 1.0));
-    let error = bake(&small_plate(vec![all]), &mut |_| {}).unwrap_err();
+    let error = bake(&small_plate(vec![all])).unwrap_err();
     assert_eq!(error, BakeError::AllHeld);
     // Between the nodes that carry the modes, 25 mm apart, but not between those of the cracks.
     let spot = cuboid(
@@ -396,7 +395,7 @@ fn supports_that_cannot_be_meant_are_errors_that_name_them() {
         edge: 0.006,
         layers: 1,
     });
-    let error = bake(&spec, &mut |_| {}).unwrap_err();
+    let error = bake(&spec).unwrap_err();
     assert!(error.to_string().contains("refine the"), "{error}");
 }
 
@@ -406,11 +405,11 @@ fn a_plate_held_along_z_keeps_three_motions() {
         region: Region::below(2, 0.0),
         axes: [false, false, true],
     }]);
-    let (_, report) = bake(&spec, &mut |_| {}).unwrap();
+    let report = bake_with(&spec, |_| {}).unwrap().report;
     // Along x, along y, about z.
     assert_eq!(report.rigid_motions, 3);
     spec.supports[0].axes = [true; 3];
-    let (_, report) = bake(&spec, &mut |_| {}).unwrap();
+    let report = bake_with(&spec, |_| {}).unwrap().report;
     assert_eq!(report.rigid_motions, 0);
 }
 
@@ -433,10 +432,16 @@ fn end_face() -> Group {
 #[test]
 fn a_group_holds_what_the_same_region_holds() {
     let by_region = small_plate(vec![Support::clamped(Region::below(0, 0.0))]);
-    let (region, at_region) = bake(&by_region, &mut |_| {}).unwrap();
+    let Baked {
+        asset: region,
+        report: at_region,
+    } = bake_with(&by_region, |_| {}).unwrap();
     let mut by_group = small_plate(vec![Support::clamped(Region::Group("wall".into()))]);
     by_group.groups.push(end_face());
-    let (group, at_group) = bake(&by_group, &mut |_| {}).unwrap();
+    let Baked {
+        asset: group,
+        report: at_group,
+    } = bake_with(&by_group, |_| {}).unwrap();
     assert_eq!(region.supported, group.supported);
     assert_eq!(at_region.frequencies, at_group.frequencies);
     // Its nodes one by one are the same part.
@@ -454,14 +459,14 @@ fn a_group_holds_what_the_same_region_holds() {
             .map(|&v| region.fracture.positions[v as usize].as_dvec3() - origin)
             .collect(),
     }];
-    let (points, _) = bake(&by_group, &mut |_| {}).unwrap();
+    let points = bake(&by_group).unwrap();
     assert_eq!(region.supported, points.supported);
 }
 
 #[test]
 fn an_unknown_group_is_refused_with_the_names_there_are() {
     let mut spec = small_plate(vec![Support::clamped(Region::Group("wal".into()))]);
-    let message = |spec: &BakeSpec| bake(spec, &mut |_| {}).unwrap_err().to_string();
+    let message = |spec: &BakeSpec| bake(spec).unwrap_err().to_string();
     assert!(
         message(&spec).contains("this body has no groups"),
         "{}",

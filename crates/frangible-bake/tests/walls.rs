@@ -6,7 +6,9 @@ use frangible::glam::{DVec3, Vec3};
 use frangible::internals::asset::SurfaceWall;
 use frangible::{Asset, Material};
 use frangible_bake::frangible_mesh::DistanceSolid;
-use frangible_bake::{BakeSpec, MeshSize, Region, Shape, SolidShape, Station, Support, bake};
+use frangible_bake::{
+    BakeSpec, Baked, MeshSize, Region, Shape, SolidShape, Station, Support, bake_with,
+};
 
 fn baked(shape: Shape, supports: Vec<Support>, edge: Option<f64>) -> Asset {
     let mut spec = BakeSpec::new("body", shape, Material::preset("glass").unwrap());
@@ -17,7 +19,7 @@ fn baked(shape: Shape, supports: Vec<Support>, edge: Option<f64>) -> Asset {
     };
     spec.fracture = edge.map(|edge| MeshSize { edge, layers: 0 });
     spec.supports = supports;
-    let (asset, report) = bake(&spec, &mut |_| {}).unwrap();
+    let Baked { asset, report } = bake_with(&spec, |_| {}).unwrap();
     for (stage, seconds) in report.seconds {
         println!("{stage}: {seconds:.3} s");
     }

@@ -49,7 +49,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         }),
         ..BakeSpec::new("tile", shape, Material::preset("porcelain")?)
     };
-    let (asset, _) = bake(&spec, &mut |_| {})?;
+    let asset = bake(&spec)?;
     eprintln!("{} tetrahedra", asset.fracture.tets.len());
     let kind = Breakable::new(Arc::new(asset))?;
     let mut config = WorldConfig::default();

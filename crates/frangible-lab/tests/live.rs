@@ -24,7 +24,7 @@ fn pane() -> Body {
             Material::preset("glass").unwrap(),
         )
     };
-    let asset = bake(&spec, &mut |_| {}).unwrap().0;
+    let asset = bake(&spec).unwrap();
     Breakable::new(asset).unwrap().body(1)
 }
 

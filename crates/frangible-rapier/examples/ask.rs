@@ -15,7 +15,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     )?;
     let edges = [Region::below(0, 0.01), Region::above(0, 0.59)];
     spec.supports = edges.map(Support::clamped).to_vec();
-    let kind = Breakable::new(bake(&spec, &mut |_| {})?.0)?;
+    let kind = Breakable::new(bake(&spec)?)?;
     let mut world = BreakableWorld::new(WorldConfig::default())?;
     let still = Vector::ZERO;
     let window = world.insert_breakable(kind.body(1), Pose::IDENTITY, still, still)?;

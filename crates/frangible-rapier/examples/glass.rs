@@ -12,7 +12,7 @@ use frangible_rapier::{BreakableWorld, SurfaceProperties, WorldConfig};
 fn main() -> Result<(), Box<dyn Error>> {
     // Once for each kind of object; a game does it beforehand and loads the file.
     let spec = BakeSpec::for_games("glass", Shape::drinking_glass(), Material::preset("glass")?)?;
-    let (asset, _) = bake(&spec, &mut |_| {})?;
+    let asset = bake(&spec)?;
     let kind = Breakable::new(Arc::new(asset))?;
 
     // The world has y up, and shapes of revolution have z up.

@@ -11,7 +11,7 @@ use frangible_rapier::{BreakableWorld, SurfaceProperties, WorldConfig};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let spec = BakeSpec::for_games("pot", Shape::bowl(), Material::preset("porcelain")?)?;
-    let kind = Breakable::new(bake(&spec, &mut |_| {})?.0)?;
+    let kind = Breakable::new(bake(&spec)?)?;
 
     // One pot a frame at most; the fracture has three frames for each, on other threads.
     let mut config = WorldConfig::for_games();

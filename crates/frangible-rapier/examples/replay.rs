@@ -10,7 +10,7 @@ use frangible_rapier::{BreakableWorld, SurfaceProperties, WorldConfig};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let spec = BakeSpec::for_games("bowl", Shape::bowl(), Material::preset("porcelain")?)?;
-    let file = bake(&spec, &mut |_| {})?.0.to_bytes();
+    let file = bake(&spec)?.to_bytes();
 
     // The server: the bowl falls, and of its break the seed and the contacts are kept.
     let kind = Breakable::new(Arc::new(Asset::from_bytes(&file)?))?;

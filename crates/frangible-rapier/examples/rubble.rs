@@ -11,7 +11,7 @@ use frangible_rapier::{AtRest, Ball, BreakableWorld, SurfaceProperties, WorldCon
 
 fn main() -> Result<(), Box<dyn Error>> {
     let spec = BakeSpec::for_games("bowl", Shape::bowl(), Material::preset("porcelain")?)?;
-    let kind = Breakable::new(bake(&spec, &mut |_| {})?.0)?;
+    let kind = Breakable::new(bake(&spec)?)?;
 
     // Pieces that rest are one body with one collider; those of two grams and more can break again, by modes of their own.
     let mut config = WorldConfig::default();

@@ -29,7 +29,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     )?;
     let edges = [Region::below(0, 0.01), Region::above(0, 0.59)];
     spec.supports = edges.map(Support::clamped).to_vec();
-    let kind = Breakable::new(bake(&spec, &mut |_| {})?.0)?;
+    let kind = Breakable::new(bake(&spec)?)?;
     let mut breaker = Breaker::new();
     let rigid = RigidBodyBuilder::fixed().translation(Vector::new(0.0, 1.2, 0.0));
     breaker.with(Sets::from(&mut game), |world| {

@@ -29,7 +29,7 @@ fn block(tets: f64) -> Arc<Asset> {
         fracture: Some(size),
         ..BakeSpec::new("block", shape, brick)
     };
-    Arc::new(bake(&spec, &mut |_| {}).expect("a sound body").0)
+    Arc::new(bake(&spec).expect("a sound body"))
 }
 
 /// The block lands on its corner.

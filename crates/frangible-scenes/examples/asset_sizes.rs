@@ -28,7 +28,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("|---|{}", "---|".repeat(GROUPS.len() + 4));
     let mut seen = BTreeSet::new();
     for name in SCENE_NAMES.iter().filter(wanted) {
-        for baked in bake(&scene(name)?, &mut |_| {})? {
+        for baked in bake(&scene(name)?)? {
             let asset = &*baked.asset;
             let bytes = asset.to_bytes();
             if !seen.insert((name, asset.name.clone(), bytes.len())) {

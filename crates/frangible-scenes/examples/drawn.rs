@@ -22,7 +22,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("|---|---|---|---|---|---|---|---|---|");
     for name in SCENE_NAMES.iter().filter(wanted) {
         let scene = scene(name)?;
-        let bodies = bake(&scene, &mut |_| {})?;
+        let bodies = bake(&scene)?;
         let run = play(&scene, &bodies, &mut |_| {})?;
         let lies = lies(&run.recording);
         let off: Vec<&Lie> = lies.iter().filter(|lie| !lie.is_true()).collect();

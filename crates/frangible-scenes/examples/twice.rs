@@ -34,7 +34,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             Material::preset("porcelain")?,
         )
     };
-    let (asset, _) = bake(&spec, &mut |_| {})?;
+    let asset = bake(&spec)?;
     let kind = Breakable::new(Arc::new(asset))?;
     let config = FractureConfig::default();
     println!(

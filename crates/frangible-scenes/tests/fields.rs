@@ -284,7 +284,7 @@ fn a_scored_pane_breaks_along_the_score() {
 fn the_chocolate_breaks_between_its_squares() {
     let mut scene = scene("chocolate").unwrap();
     scene.bodies[0].modes = 40;
-    let asset = bake(&scene, &mut |_| {}).unwrap()[0].asset.clone();
+    let asset = bake(&scene).unwrap()[0].asset.clone();
     let grooves = &scene.bodies[0].weakness;
     let scored = kind(&asset, weakness::from_patches(&asset, grooves).unwrap());
     let plain = kind(&asset, Fields::default());

@@ -67,7 +67,7 @@ fn share(asset: &Arc<Asset>, fields: Fields, grooves: &[Patch], hit: Contact) ->
 fn a_scored_bar_breaks_along_its_grooves() {
     let mut scene = scene("chocolate").unwrap();
     scene.bodies[0].modes = 40;
-    let asset = bake(&scene, &mut |_| {}).unwrap()[0].asset.clone();
+    let asset = bake(&scene).unwrap()[0].asset.clone();
     let grooves = &scene.bodies[0].weakness;
     let inside = |e: usize| {
         let p = asset.fracture.centroid(e);

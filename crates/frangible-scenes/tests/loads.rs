@@ -18,7 +18,7 @@ fn bar(supports: Vec<Support>) -> Body {
         supports,
         ..BakeSpec::new("bar", shape, Material::preset("glass").unwrap())
     };
-    Body::new(bake(&spec, &mut |_| {}).unwrap().0.into(), 1).unwrap()
+    Body::new(bake(&spec).unwrap().into(), 1).unwrap()
 }
 
 fn unculled() -> FractureConfig {

@@ -10,7 +10,7 @@ use frangible::glam::Vec3;
 use frangible::internals::impact_traced;
 use frangible::{Asset, Breakable, FractureConfig};
 use frangible_bake::weakness::{self, Channel, Paint, Patch, Zone};
-use frangible_scenes::{Scene, bake, parse_scene, play};
+use frangible_scenes::{Scene, bake, bake_with, parse_scene, play};
 
 /// Sides of the plate, m.
 const PLATE: [f32; 3] = [0.2, 0.12, 0.006];
@@ -139,7 +139,7 @@ fn a_painted_plate_breaks_along_the_paint() {
     fs::write(folder.0.join("painted.obj"), plate(true)).unwrap();
     fs::write(folder.0.join("bare.obj"), plate(false)).unwrap();
     let painted = scene(&folder.0, "painted.obj", WEAK_WHERE_RED);
-    let baked = bake(&painted, &mut |_| {}).unwrap();
+    let baked = bake(&painted).unwrap();
     let asset = &baked[0].asset;
     assert!(!asset.render.as_ref().unwrap().colors.is_empty());
 
@@ -185,7 +185,7 @@ fn a_painted_plate_breaks_along_the_paint() {
 
     // A mesh without paint is refused before anything is baked, and so is an asset made of it.
     let bare = scene(&folder.0, "bare.obj", WEAK_WHERE_RED);
-    let message = bake(&bare, &mut |_| panic!("baked"))
+    let message = bake_with(&bare, |_| panic!("baked"))
         .unwrap_err()
         .to_string();
     assert!(

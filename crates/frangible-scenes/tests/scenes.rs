@@ -17,7 +17,7 @@ use crate::common::drawn::{Lie, closed, lies};
 fn cheap(name: &str) -> (Scene, Vec<BakedBody>) {
     let mut scene = scene(name).unwrap();
     scene.bodies[0].modes = 40;
-    let baked = bake(&scene, &mut |_| {}).unwrap();
+    let baked = bake(&scene).unwrap();
     (scene, baked)
 }
 
@@ -306,7 +306,7 @@ fn two_panes() -> &'static (Scene, Vec<BakedBody>) {
         other.place = Place::Standing { over: [2.0, 0.0] };
         scene.bodies.push(other);
         scene.projectiles[0].target = 1;
-        let baked = bake(&scene, &mut |_| {}).unwrap();
+        let baked = bake(&scene).unwrap();
         (scene, baked)
     })
 }
@@ -450,7 +450,7 @@ fn no_bodies_of_a_built_in_scene_overlap() {
             (body.modes, body.followed) = (12, None);
         }
         scene.duration = 1.0 / 60.0;
-        let baked = bake(&scene, &mut |_| {}).unwrap();
+        let baked = bake(&scene).unwrap();
         let played = play(&scene, &baked, &mut |_| {});
         assert!(played.is_ok(), "{name}: {}", played.unwrap_err());
     }

@@ -18,7 +18,7 @@ fn block() -> (Arc<Asset>, f64) {
         fracture: Some(size),
         ..BakeSpec::new("block", shape, porcelain)
     };
-    let mut asset = bake(&spec, &mut |_| {}).unwrap().0;
+    let mut asset = bake(&spec).unwrap();
     // The corner is to bring all of the blow into the block.
     asset.material.crushing_pressure = f64::INFINITY;
     (Arc::new(asset), 0.09 * 0.07)

@@ -283,7 +283,7 @@ fn arms(pane: &Breakable, hit: &Contact, speed: f32) -> f64 {
 #[test]
 fn a_pane_that_is_hit_hard_has_a_star_whose_arms_run_through_the_rings() {
     let scene = scene("pane").unwrap();
-    let bodies = bake(&scene, &mut |_| {}).unwrap();
+    let bodies = bake(&scene).unwrap();
     let first = first_break(&scene, &bodies, &mut |_| {}).unwrap().unwrap();
     let pane = breakable(&scene.bodies[0], first.body.asset()).unwrap();
     let [slow, fast] = [10.0, 20.0].map(|speed| arms(&pane, &first.contacts[0], speed));
@@ -394,7 +394,7 @@ fn a_fast_ball_cuts_a_plug_out_and_keeps_most_of_its_speed() {
 #[test]
 fn what_a_dropped_plate_has_lost_comes_to_rest() {
     let scene = scene("plate").unwrap();
-    let bodies = bake(&scene, &mut |_| {}).unwrap();
+    let bodies = bake(&scene).unwrap();
     let first = first_break(&scene, &bodies, &mut |_| {}).unwrap().unwrap();
     let kind = breakable(&scene.bodies[0], first.body.asset()).unwrap();
     let broken: Vec<(usize, f64)> = (1..=4)

@@ -20,7 +20,7 @@ fn baked(shape: Shape, material: Material) -> (AssetSound, Body) {
         followed: Some(24),
         ..BakeSpec::for_games("body", shape, material).expect("a shape")
     };
-    let (asset, _) = bake(&spec, &mut |_| {}).expect("a bake");
+    let asset = bake(&spec).expect("a bake");
     let kind = Breakable::new(Arc::new(asset)).expect("a kind");
     AssetSound::new(&kind.body(1), &damping, Hold::Free).expect("a sound")
 }

@@ -38,7 +38,7 @@ pub(crate) fn pane(options: &Options) -> Result<Asset> {
     {
         spec.fracture = Some(spec.shape.size_for(tets)?);
     }
-    Ok(bake(&spec, &mut |_| {})?.0)
+    Ok(bake(&spec)?)
 }
 
 /// A prism over a polygon of so many corners, the first of them at `turned`, rad, from the diagonal: a square of the side [`SIDE`], or

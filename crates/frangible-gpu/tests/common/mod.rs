@@ -31,7 +31,7 @@ fn kind(name: &str, shape: Shape, material: &str, analysis: f64) -> Breakable {
         fracture: Some(shape.size_for(6000.0).unwrap()),
         ..BakeSpec::new(name, shape, material)
     };
-    Breakable::new(bake(&spec, &mut |_| {}).unwrap().0).unwrap()
+    Breakable::new(bake(&spec).unwrap()).unwrap()
 }
 
 /// Drinking glass, pane of 0.3 m, brick.

@@ -164,7 +164,7 @@ struct Blow {
 impl Blow {
     fn of(name: &str) -> Result<Self, BenchError> {
         let scene = scene(name)?;
-        let baked = bake(&scene, &mut |_| {})?;
+        let baked = bake(&scene)?;
         let first = first_break(&scene, &baked, &mut |_| {})?;
         let nothing = || BenchError::NotAsMeant(format!("nothing breaks in the scene `{name}`"));
         let first = first.ok_or_else(nothing)?;

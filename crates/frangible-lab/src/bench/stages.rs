@@ -55,7 +55,7 @@ pub fn small_body() -> Result<Asset, BenchError> {
         }),
         ..BakeSpec::new("pane", shape, Material::preset("glass")?)
     };
-    Ok(bake(&spec, &mut |_| {})?.0)
+    Ok(bake(&spec)?)
 }
 
 /// The small body ready to be hit.

@@ -34,7 +34,7 @@ pub(crate) fn slab() -> Result<Arc<Asset>, FigureError> {
         fracture: Some(shape.size_for(20_000.0)?),
         ..BakeSpec::new("slab", shape, Material::preset("paper-slab-high")?)
     };
-    let slab = Arc::new(bake(&spec, &mut |_| {})?.0);
+    let slab = Arc::new(bake(&spec)?);
     Ok(changed(&slab, |m| {
         m.weak_point_density = SLAB_WEAK_POINTS;
         m.energy_depth = slab_energy_depth(m);
@@ -63,7 +63,7 @@ pub(crate) fn baked(
         fracture: Some(shape.size_for(tets)?),
         ..BakeSpec::new(name, shape, Material::preset(material)?)
     };
-    Ok(Arc::new(bake(&spec, &mut |_| {})?.0))
+    Ok(Arc::new(bake(&spec)?))
 }
 
 /// The body with other numbers of its material. Not for those that are in the modes: E, ν, ρ.

@@ -236,7 +236,7 @@ pub fn baked_cases() -> Result<Vec<Case>, BakeError> {
             ..BakeSpec::new(name, shape, material)
         };
         cases.push(Case {
-            asset: Arc::new(bake(&spec, &mut |_| {})?.0),
+            asset: Arc::new(bake(&spec)?),
             speed: 50.0,
         });
     }

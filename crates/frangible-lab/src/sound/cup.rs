@@ -103,7 +103,7 @@ impl Cup {
             modes: MODES,
             ..BakeSpec::new("cup", shape, material.clone())
         };
-        let (asset, _) = bake(&spec, &mut |_| {})?;
+        let asset = bake(&spec)?;
         let kind = Breakable::new(Arc::new(asset))?;
         let intact = kind.body(1);
         let mut two_tones = [0.0; 2];

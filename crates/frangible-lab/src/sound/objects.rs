@@ -128,7 +128,7 @@ impl Plan {
             followed: Some(40),
             ..BakeSpec::new(self.name, self.shape, self.material)
         };
-        let (asset, _) = bake(&spec, &mut |_| {})?;
+        let asset = bake(&spec)?;
         let kind = Breakable::new(Arc::new(asset))?;
         let (shape, body) = AssetSound::new(&kind.body(1), &damping, Hold::Free)?;
         let push = shape.push(self.point, self.direction);

@@ -29,7 +29,7 @@ pub(crate) fn baked(name: &str) -> Arc<Asset> {
         fracture: Some(size),
         ..BakeSpec::new(name, shape, Material::preset(material).unwrap())
     };
-    Arc::new(bake(&spec, &mut |_| {}).unwrap().0)
+    Arc::new(bake(&spec).unwrap())
 }
 
 /// Outcome of letting twenty of these bodies fall on stone stairs and tumble down them.

@@ -18,7 +18,7 @@ fn bake_small(name: &str, shape: Shape, material: &str, modes: usize, coarser: f
         fracture: Some(size),
         ..BakeSpec::new(name, shape, material)
     };
-    Arc::new(bake(&spec, &mut |_| {}).unwrap().0)
+    Arc::new(bake(&spec).unwrap())
 }
 
 /// Drinking glass, axis z, rim on top.

@@ -256,7 +256,7 @@ mod tests {
             followed: Some(12),
             ..BakeSpec::new("plate", Shape::plate(0.24, 0.1, 0.004), glass.clone())
         };
-        let (asset, _) = bake(&spec, &mut |_| {}).expect("a bake");
+        let asset = bake(&spec).expect("a bake");
         let body = Breakable::new(Arc::new(asset)).expect("a kind").body(1);
         let mass = body.asset().mass.mass;
         let half = Sounding::Piece(glass, 0.5 * mass);

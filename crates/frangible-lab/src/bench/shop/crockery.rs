@@ -33,7 +33,7 @@ pub(crate) fn bake_all() -> Result<Vec<Kind>, BenchError> {
             analysis: Some(shape.size_for(TETS[1])?),
             ..BakeSpec::new(name, shape, Material::preset(material)?)
         };
-        let asset = bake(&spec, &mut |_| {})?.0;
+        let asset = bake(&spec)?;
         let lowest = asset.fracture.positions.iter().map(|p| p.z);
         let foot = -lowest.fold(f32::INFINITY, f32::min);
         Ok(Kind {

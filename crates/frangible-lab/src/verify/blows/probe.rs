@@ -88,7 +88,7 @@ fn supported(plate: &Plate, edge: f64) -> Result<Asset, BakeError> {
             .collect(),
         ..BakeSpec::new("plate", Shape::plate(side, side, thickness), m)
     };
-    Ok(bake(&spec, &mut |_| {})?.0)
+    bake(&spec)
 }
 
 /// The asset with its lowest modes followed and the rest as its residual vector.
@@ -111,7 +111,7 @@ pub(crate) fn solid(
         fracture: Some(size),
         ..BakeSpec::new("solid", shape, material.clone())
     };
-    body(bake(&spec, &mut |_| {})?.0)
+    body(bake(&spec)?)
 }
 
 /// A body of an asset.

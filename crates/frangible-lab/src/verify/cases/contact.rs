@@ -8,7 +8,7 @@ use frangible::internals::DurationModel;
 use frangible::internals::contact::{contact_duration, hertz_duration, modal_load, pulse};
 use frangible::{Body, Contact, FractureConfig, Striker};
 use frangible_bake::fem::Elasticity;
-use frangible_bake::{BakeError, bake};
+use frangible_bake::{BakeError, bake_with};
 
 use crate::verify::case::{Case, Findings};
 use crate::verify::check::{Check, number};
@@ -65,10 +65,10 @@ fn compute(progress: &mut dyn FnMut(f64)) -> Result<Findings, BakeError> {
     ];
     // The duration asks nothing of the modes: few elements will do.
     let coarse = Some(0.5 * RADII[0]);
-    let asset = bake(&ball(RADII[0], &STEEL, coarse), &mut |p| {
+    let asset = bake_with(&ball(RADII[0], &STEEL, coarse), |p| {
         progress(0.9 * p.fraction);
     })?
-    .0;
+    .asset;
     let striker = Striker {
         contact_modulus: (e / (1.0 - nu * nu)) as f32,
         inverse_effective_mass: (1.0 / masses[1]) as f32,

@@ -29,7 +29,7 @@ pub(super) fn compute() -> Result<Vec<ResidualRow>, BakeError> {
             fracture: Some(shape.size_for(9000.0)?),
             ..BakeSpec::new(name, shape, material)
         };
-        Ok(bake(&spec, &mut |_| {})?.0)
+        bake(&spec)
     };
     let brick = of(Shape::block([0.21, 0.1, 0.05]), "brick")?;
     let glass = of(Shape::drinking_glass(), "glass")?;

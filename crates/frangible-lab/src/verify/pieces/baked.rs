@@ -44,7 +44,7 @@ pub(crate) fn rebake(broken: &Broken, chosen: &Chosen, sample: &PieceSample) -> 
         modes: FREQUENCIES + 3,
         ..BakeSpec::new("a fragment", shape, broken.body.asset().material.clone())
     };
-    let (asset, _) = bake(&spec, &mut |_| {}).ok()?;
+    let asset = bake(&spec).ok()?;
     let own = sample.truth.frequencies.iter().enumerate();
     Some(Rebaked {
         name: sample.name.clone(),
