@@ -386,10 +386,7 @@ fn no_input_makes_nonsense() {
         }
         "blow"
     };
-    let rigid = |mass: f64| Striker {
-        inverse_effective_mass: (1.0 / mass) as f32,
-        ..Striker::rigid()
-    };
+    let rigid = |mass: f64| Striker::rigid().with_effective_mass(mass);
     // One body of these kilograms that strikes at two points, and answers each with a velocity that belongs to another mass.
     let at_two_points = |mass: f64, mass_between: f64| {
         [0.01, -0.01].map(|x: f32| {
@@ -554,11 +551,9 @@ fn a_body_that_strikes_at_four_points_brings_its_energy_once() {
                 velocity: normal / mass.sqrt(),
                 spin: turn / inertia.sqrt(),
             };
-            let striker = Striker {
-                inverse_effective_mass: 1.0 / mass + turn.length_squared() / inertia,
-                shared: share.then_some(shared),
-                ..Striker::ball(&Material::preset("steel").unwrap(), 1.0, 0.01)
-            };
+            let mut striker = Striker::ball(&Material::preset("steel").unwrap(), 1.0, 0.01);
+            striker.inverse_effective_mass = 1.0 / mass + turn.length_squared() / inertia;
+            striker.shared = share.then_some(shared);
             Contact::strike(point, normal, speed, striker)
         })
     };

@@ -266,12 +266,10 @@ fn another_size_is_what_its_bake_gives() {
 
 /// Hits the block at one place, times its size.
 fn hit(asset: &Asset, size: f32) -> Outcome {
-    let striker = Striker {
-        contact_modulus: 2e11,
-        curvature_radius: 0.01 * size,
-        restitution: 0.4,
-        ..Striker::rigid()
-    };
+    let striker = Striker::rigid()
+        .with_contact_modulus(2e11)
+        .with_curvature_radius(f64::from(0.01 * size))
+        .with_restitution(0.4);
     let point = size * Vec3::new(0.01, 0.005, 0.015);
     let contact = Contact {
         impulse: 6.0 * size.powi(3),

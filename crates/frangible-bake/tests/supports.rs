@@ -308,13 +308,11 @@ fn a_shelf_that_breaks_leaves_a_piece_in_the_wall() {
     let read = Asset::from_bytes(&asset.to_bytes()).unwrap();
     assert_eq!(read.supported, asset.supported);
     let body = Body::new(read.into(), 1).unwrap();
-    let striker = Striker {
-        contact_modulus: 2.3e11,
-        inverse_effective_mass: 0.5,
-        curvature_radius: 0.02,
-        restitution: 0.5,
-        ..Striker::rigid()
-    };
+    let striker = Striker::rigid()
+        .with_contact_modulus(2.3e11)
+        .with_effective_mass(2.0)
+        .with_curvature_radius(0.02)
+        .with_restitution(0.5);
     // Impulse of a ball of 2 kg against a body that does not give way.
     let impulse = |speed: f32| 1.5 * 2.0 * speed;
     let point = Vec3::new(0.09, 0.0, 0.005);

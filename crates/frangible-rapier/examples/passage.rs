@@ -81,11 +81,7 @@ impl Throw {
     fn alone(&self, seed: u64) -> Result<f64, InputError> {
         let body = self.pane.body(seed);
         let place = body.nearest_on_surface(START * Vec3::new(1.0, 1.0, 0.1));
-        let striker = Striker {
-            curvature_radius: RADIUS,
-            inverse_effective_mass: (1.0 / self.mass) as f32,
-            ..Striker::fixed(&self.steel)
-        };
+        let striker = Striker::ball(&self.steel, self.mass, f64::from(RADIUS));
         let contact = Contact::strike(place.position, Vec3::NEG_Z, self.speed, striker);
         let outcome = impact(&body, &[contact], &FractureConfig::default())?;
         let pushes: Vec<(DVec3, DVec3)> = (outcome.report().contacts.iter())

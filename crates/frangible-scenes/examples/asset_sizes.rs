@@ -75,13 +75,11 @@ fn change_of_impacts(exact: &Asset, compact: &Asset) -> Result<f64, InputError> 
         let (mesh, triangles) = (&exact.asset().fracture, &exact.asset().surface.triangles);
         let corners = triangles[k * triangles.len() / 8].map(|v| mesh.positions[v as usize]);
         let [a, b, c] = corners;
-        let striker = Striker {
-            contact_modulus: 2.3e11,
-            inverse_effective_mass: 1.0,
-            curvature_radius: 0.01,
-            restitution: 0.5,
-            ..Striker::rigid()
-        };
+        let striker = Striker::rigid()
+            .with_contact_modulus(2.3e11)
+            .with_effective_mass(1.0)
+            .with_curvature_radius(0.01)
+            .with_restitution(0.5);
         let normal = -(b - a).cross(c - a).normalize();
         let impulse = (0.3 * exact.asset().mass.mass) as f32;
         let contact = Contact {

@@ -80,15 +80,9 @@ impl Numbers {
             let steel = Material::preset("steel").unwrap();
             let mass = 0.02 + 0.2 * self.next();
             let radius = (mass / steel.density * 0.75 / std::f64::consts::PI).cbrt();
-            Striker {
-                restitution,
-                ..Striker::ball(&steel, mass, radius)
-            }
+            Striker::ball(&steel, mass, radius).with_restitution(restitution)
         } else {
-            Striker {
-                restitution,
-                ..Striker::fixed(&Material::preset("stone").unwrap())
-            }
+            Striker::fixed(&Material::preset("stone").unwrap()).with_restitution(restitution)
         }
     }
 }

@@ -185,10 +185,7 @@ impl<'a> Source<'a> {
         Ok(Self {
             asset: body.asset(),
             speeds,
-            stone: Striker {
-                restitution: 0.5,
-                ..Striker::fixed(&Material::preset("stone")?)
-            },
+            stone: Striker::fixed(&Material::preset("stone")?).with_restitution(0.5),
             rng: ChaCha8Rng::seed_from_u64(seed),
         })
     }

@@ -271,6 +271,11 @@ pub fn impact(case: &Case, number: u64) -> Result<(Body, Vec<Contact>), InputErr
             (2e11, 0.005 + 0.03 * random(), 2.0 + 20.0 * random())
         };
         let give = asset.mass.inverse_effective_mass(on, normal) + inverse_mass;
+        let mut striker = Striker::rigid()
+            .with_contact_modulus(modulus)
+            .with_curvature_radius(radius)
+            .with_restitution(0.3);
+        striker.inverse_effective_mass = inverse_mass as f32;
         contacts.push(Contact {
             point: (on + 1e-4 * outward * random()).as_vec3(),
             normal: normal.as_vec3(),
@@ -278,16 +283,7 @@ pub fn impact(case: &Case, number: u64) -> Result<(Body, Vec<Contact>), InputErr
             friction: Vec3::ZERO,
             approach_speed: speed as f32,
             duration: 0.0,
-            striker: Striker {
-                contact_modulus: modulus as f32,
-                crushing_pressure: f32::INFINITY,
-                inverse_effective_mass: inverse_mass as f32,
-                curvature_radius: radius as f32,
-                restitution: 0.3,
-                modal_duration: 0.0,
-                receptance: None,
-                shared: None,
-            },
+            striker,
         });
     }
     Ok((body, contacts))

@@ -43,18 +43,12 @@ pub(crate) fn block() -> &'static Arc<Asset> {
 pub(crate) fn steel_ball(mass: f64) -> Striker {
     let steel = Material::preset("steel").unwrap();
     let radius = (mass / steel.density * 0.75 / std::f64::consts::PI).cbrt();
-    Striker {
-        restitution: 0.5,
-        ..Striker::ball(&steel, mass, radius)
-    }
+    Striker::ball(&steel, mass, radius).with_restitution(0.5)
 }
 
 /// Level stone floor.
 pub(crate) fn stone_floor() -> Striker {
-    Striker {
-        restitution: 0.5,
-        ..Striker::fixed(&Material::preset("stone").unwrap())
-    }
+    Striker::fixed(&Material::preset("stone").unwrap()).with_restitution(0.5)
 }
 
 /// A blow at `point` in direction `normal`, with the impulse of a central rigid-body collision at `speed`.

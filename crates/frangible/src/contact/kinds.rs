@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use glam::Vec3;
+use glam::{Mat3, Vec3};
 
 use super::Receptance;
 use crate::asset::Asset;
@@ -32,8 +32,10 @@ pub struct Contact {
     pub striker: Striker,
 }
 
-/// Properties of the striking body that determine a contact.
+/// Properties of the striking body that determine a contact, as [`Striker::fixed`], [`Striker::ball`], [`Striker::body`] or
+/// [`Striker::flexible`] make them; methods named `with_…` change one.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Striker {
     /// Plane-strain modulus E/(1−ν²), Pa; infinite for a rigid striker.
     pub contact_modulus: f32,
@@ -47,11 +49,14 @@ pub struct Striker {
     pub restitution: f32,
     /// Contact duration of the striker's own vibration, s; the longer of the durations of both bodies applies `[G12 §4.1]`. Used by the
     /// modal duration models; 0 for a striker that is not breakable. See [`answer_duration`](super::answer_duration).
+    #[doc(hidden)]
     pub modal_duration: f32,
     /// Mass coupling of a striker with several contacts; `None` for a single contact.
+    #[doc(hidden)]
     pub shared: Option<SharedMass>,
     /// Receptance of a vibrating striker, for [integrated](crate::internals::DurationModel::Integrated) blows; `None` for a rigid striker
     /// with a Hertz contact. Computed by [`Striker::flexible`].
+    #[doc(hidden)]
     pub receptance: Option<Arc<Receptance>>,
 }
 
@@ -160,6 +165,69 @@ impl Striker {
             inverse_effective_mass: (1.0 / mass) as f32,
             curvature_radius: radius as f32,
             ..Self::fixed(material)
+        }
+    }
+
+    /// A moving rigid body with edges, such as a table or a hammer: its mass, kg, the inverse of its inertia tensor, 1/(kg·m²), and, in the same axes,
+    /// `arm`, m, from its centre of mass to the contact and `normal`, the unit direction of the blow. Contacts of one impact with equal `number`
+    /// belong to one body, so that an impulse at one of them moves it at the others.
+    #[must_use]
+    pub fn body(
+        material: &Material,
+        number: u32,
+        mass: f64,
+        inverse_inertia: Mat3,
+        arm: Vec3,
+        normal: Vec3,
+    ) -> Self {
+        let columns = [
+            inverse_inertia.x_axis,
+            inverse_inertia.y_axis,
+            inverse_inertia.z_axis,
+        ];
+        let velocity = normal * (1.0 / mass).sqrt() as f32;
+        let shared = SharedMass::of(number, velocity, columns, arm.cross(normal));
+        Self {
+            inverse_effective_mass: shared.velocity.length_squared() + shared.spin.length_squared(),
+            curvature_radius: Self::EDGE_RADIUS,
+            shared: Some(shared),
+            ..Self::fixed(material)
+        }
+    }
+
+    /// The same striker with this effective mass at the contact, kg: of a ball its mass, of a body that turns when it is struck less.
+    #[must_use]
+    pub fn with_effective_mass(self, mass: f64) -> Self {
+        Self {
+            inverse_effective_mass: (1.0 / mass) as f32,
+            ..self
+        }
+    }
+
+    /// The same striker with this radius of curvature at the contact, m.
+    #[must_use]
+    pub fn with_curvature_radius(self, radius: f64) -> Self {
+        Self {
+            curvature_radius: radius as f32,
+            ..self
+        }
+    }
+
+    /// The same striker with this coefficient of restitution of the pair, 0..=1.
+    #[must_use]
+    pub fn with_restitution(self, restitution: f64) -> Self {
+        Self {
+            restitution: restitution as f32,
+            ..self
+        }
+    }
+
+    /// The same striker with this plane-strain modulus E/(1−ν²), Pa.
+    #[must_use]
+    pub fn with_contact_modulus(self, modulus: f64) -> Self {
+        Self {
+            contact_modulus: modulus as f32,
+            ..self
         }
     }
 

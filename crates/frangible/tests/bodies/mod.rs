@@ -46,10 +46,7 @@ pub(crate) fn models() -> [(&'static str, FractureConfig); 3] {
 pub(crate) fn steel_ball(mass: f64) -> Striker {
     let steel = Material::preset("steel").unwrap();
     let radius = (mass / steel.density * 0.75 / std::f64::consts::PI).cbrt();
-    Striker {
-        restitution: 0.5,
-        ..Striker::ball(&steel, mass, radius)
-    }
+    Striker::ball(&steel, mass, radius).with_restitution(0.5)
 }
 
 /// A steel ball of 130 g hits the pane at (x, y) from above.
@@ -61,10 +58,7 @@ pub(crate) fn pane_hit(x: f32, y: f32, speed: f64) -> Contact {
 /// The block lands on its corner on stone, its centre above it.
 pub(crate) fn block_hit(speed: f64) -> Contact {
     let corner = Vec3::new(0.105, 0.05, -0.025);
-    let stone = Striker {
-        restitution: 0.5,
-        ..Striker::fixed(&Material::preset("stone").unwrap())
-    };
+    let stone = Striker::fixed(&Material::preset("stone").unwrap()).with_restitution(0.5);
     Contact::collision(block().asset(), corner, -corner, speed, stone)
 }
 

@@ -41,13 +41,11 @@ const STEP: f64 = 5e-5;
 
 fn striker(modulus: f64) -> Striker {
     let [mass, radius, _, restitution] = BALL;
-    Striker {
-        contact_modulus: modulus as f32,
-        inverse_effective_mass: (1.0 / mass) as f32,
-        curvature_radius: radius as f32,
-        restitution: restitution as f32,
-        ..Striker::rigid()
-    }
+    Striker::rigid()
+        .with_contact_modulus(modulus)
+        .with_effective_mass(mass)
+        .with_curvature_radius(radius)
+        .with_restitution(restitution)
 }
 
 fn contact(pig: &Asset, striker: Striker) -> Contact {

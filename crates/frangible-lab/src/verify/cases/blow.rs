@@ -234,11 +234,9 @@ fn rod() -> Result<Vec<Check>, BakeError> {
     let mass = glass.density * area * LENGTH;
     let radius: f64 = 2e-3;
     let stiffness = 4.0 / 3.0 * glass.contact_modulus() * radius.sqrt();
-    let striker = Striker {
-        inverse_effective_mass: (1.0 / mass) as f32,
-        curvature_radius: radius as f32,
-        ..Striker::rigid()
-    };
+    let striker = Striker::rigid()
+        .with_effective_mass(mass)
+        .with_curvature_radius(radius);
     let contact = Contact::strike(
         Vec3::new(-0.5 * LENGTH as f32, 0.0, 0.0),
         Vec3::X,

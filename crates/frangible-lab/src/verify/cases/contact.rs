@@ -69,13 +69,11 @@ fn compute(progress: &mut dyn FnMut(f64)) -> Result<Findings, BakeError> {
         progress(0.9 * p.fraction);
     })?
     .asset;
-    let striker = Striker {
-        contact_modulus: (e / (1.0 - nu * nu)) as f32,
-        inverse_effective_mass: (1.0 / masses[1]) as f32,
-        curvature_radius: RADII[1] as f32,
-        restitution: 0.5,
-        ..Striker::rigid()
-    };
+    let striker = Striker::rigid()
+        .with_contact_modulus(e / (1.0 - nu * nu))
+        .with_effective_mass(masses[1])
+        .with_curvature_radius(RADII[1])
+        .with_restitution(0.5);
     let top = Vec3::new(0.0, RADII[0] as f32, 0.0);
     let hit = Contact::strike(top, Vec3::NEG_Y, SPEED as f32, striker);
     let asset = Arc::new(asset);
