@@ -28,7 +28,7 @@ impl Kind {
     fn new(breakable: Breakable) -> Self {
         let asset = breakable.asset();
         let text = |text: &str| CString::new(text.replace('\0', " ")).unwrap_or_default();
-        let (name, material) = (text(&asset.name), text(&asset.material.name));
+        let (name, material) = (text(asset.name()), text(&asset.material().name));
         Self {
             name,
             material,
@@ -120,9 +120,9 @@ pub unsafe extern "C" fn frangible_breakable_about(
             supported: asset.is_supported().into(),
             name: kind.name.as_ptr(),
             material: kind.material.as_ptr(),
-            strength: asset.material.strength,
-            friction: asset.material.friction,
-            restitution: asset.material.restitution,
+            strength: asset.material().strength,
+            friction: asset.material().friction,
+            restitution: asset.material().restitution,
             ..Default::default()
         });
         Ok(())
@@ -140,7 +140,7 @@ pub unsafe extern "C" fn frangible_breakable_solid(
         let out = unsafe { Form::new(out, "out") }?;
         let kind = BREAKABLES.get(breakable.id)?;
         let asset = kind.breakable.asset();
-        out.fill(&solid(&asset.mass, asset.is_supported()));
+        out.fill(&solid(&asset.mass(), asset.is_supported()));
         Ok(())
     })
 }

@@ -42,7 +42,7 @@ fn double(numbers: &[f64]) -> DVec3 {
 /// # Errors
 /// An asset with inconsistent arrays or an invalid number.
 pub fn kind(asset: Asset) -> Result<Breakable, InputError> {
-    let fields = Fields::of_material(&asset.material);
+    let fields = Fields::of_material(asset.material());
     Breakable::new(asset)?.with_fields(fields)
 }
 
@@ -85,7 +85,7 @@ impl Drawn {
     #[must_use]
     pub fn whole(asset: &Asset) -> Self {
         let mut sheet;
-        match &asset.render {
+        match asset.render() {
             Some(surface) => {
                 sheet = Sheet::new(surface.positions.len(), Vec3::ZERO);
                 for (triangle, normals) in surface.triangles.iter().zip(surface.corner_normals()) {
@@ -97,7 +97,11 @@ impl Drawn {
             None => {
                 let positions = asset.surface_positions();
                 sheet = Sheet::new(positions.len(), Vec3::ZERO);
-                let corners = asset.surface.triangles.iter().zip(&asset.surface.normals);
+                let corners = asset
+                    .surface()
+                    .triangles
+                    .iter()
+                    .zip(&asset.surface().normals);
                 for (triangle, normals) in corners {
                     sheet.add(positions, *triangle, *normals, None);
                 }
@@ -209,7 +213,7 @@ impl Sheet {
 /// Convex parts of a whole body, points in its body frame, m.
 #[must_use]
 pub fn hulls_of_body(asset: &Asset) -> Vec<Vec<f32>> {
-    hulls(asset.cells.iter().map(|cell| &cell.points[..]).collect())
+    hulls(asset.cells().iter().map(|cell| &cell.points[..]).collect())
 }
 
 /// Convex parts of a fragment, points in its own frame, m.
@@ -354,7 +358,7 @@ pub fn motions_held(
     let body = Placed::new(asset, pose, motion);
     let mass = MassProperties {
         centre: DVec3::ZERO,
-        ..asset.mass
+        ..asset.mass()
     };
     let (mut whole, mut by) = (body.part(&mass, true), striker_of(striker));
     take_held(&mut whole, &mut by, &body.pushes(report));

@@ -69,15 +69,15 @@ fn measure(subject: &Subject, kept: usize, counts: &[usize]) -> Result<(), Failu
         "\n{}: {:.2} kg, {} tetrahedra, {} elements, {} modes from {:.0} to {:.0} Hz, {} followed by choice",
         subject.shape,
         report.mass,
-        asset.fracture.tets.len(),
-        asset.analysis.elements.len(),
+        asset.fracture().tets.len(),
+        asset.analysis().elements.len(),
         kept,
-        asset.modes.frequency(0),
-        asset.modes.frequency(kept - 1),
+        asset.modes().frequency(0),
+        asset.modes().frequency(kept - 1),
         report.followed
     );
     let frequencies: Vec<String> = (0..kept)
-        .map(|i| format!("{:.0}", asset.modes.frequency(i)))
+        .map(|i| format!("{:.0}", asset.modes().frequency(i)))
         .collect();
     println!("Hz: {}", frequencies.join(" "));
     println!(
@@ -157,9 +157,9 @@ struct Place {
 }
 
 fn places(asset: &Asset, contact: Vec3, root: Vec3) -> Vec<Place> {
-    let mesh = &asset.fracture;
+    let mesh = asset.fracture();
     let tets: Vec<u32> = {
-        let mut all = asset.surface.tets.clone();
+        let mut all = asset.surface().tets.clone();
         all.sort_unstable();
         all.dedup();
         all
@@ -191,15 +191,15 @@ fn peaks(
     places: &[Place],
 ) -> Result<Found, Failure> {
     let mut asset = asset.clone();
-    let kept = asset.modes.count();
-    asset.modes.residual_modes = kept - followed;
+    let kept = asset.modes().count();
+    asset.parts_mut().modes.residual_modes = kept - followed;
     let body = Breakable::new(asset)?.body(1);
     let mut config = FractureConfig::default();
     (config.residual, config.near_field) = (residual, None);
     let blow = Blow::new(&body, std::slice::from_ref(contact), &config)?.ok_or("no blow")?;
     let report = blow.reports()[0].clone();
     let load = modal_load(&body, [contact]);
-    let modes = &body.asset().modes;
+    let modes = body.asset().modes();
     let still: Vec<f32> = (followed..kept)
         .map(|i| match residual {
             true => (load.touches[0].modal_shape[i] / modes.eigenvalues[i]) as f32,

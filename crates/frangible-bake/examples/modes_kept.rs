@@ -42,8 +42,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             println!(
                 "| {name} | {modes} | {} | {:.1} | {:.1} | {:.2} | {:.2} | {whole:.2} | {:.1} |",
                 report.followed,
-                1e-3 * asset.modes.frequency(modes - 1),
-                1e-3 * asset.modes.frequency(report.followed - 1),
+                1e-3 * asset.modes().frequency(modes - 1),
+                1e-3 * asset.modes().frequency(report.followed - 1),
                 of("finding modes"),
                 of("modes to follow"),
                 1e-6 * asset.to_bytes().len() as f64

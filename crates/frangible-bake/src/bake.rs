@@ -9,7 +9,7 @@
 use std::ops::ControlFlow;
 
 use frangible::glam::DVec3;
-use frangible::internals::asset::RenderSurface;
+use frangible::internals::asset::{AssetParts, RenderSurface};
 use frangible::internals::modal::ModalBasis;
 use frangible::internals::stress::StressBounds;
 use frangible::internals::{MassProperties, TetMesh};
@@ -261,7 +261,7 @@ fn baked(spec: &BakeSpec, progress: &mut dyn FnMut(Progress)) -> Result<Baked, B
         eigenvalues: modes.eigenvalues.clone(),
         ..ModalBasis::default()
     };
-    let mut asset = Asset {
+    let mut asset = Asset::from_parts(AssetParts {
         name: spec.name.clone(),
         material: spec.material.clone(),
         analysis: analysis.stored(),
@@ -276,13 +276,13 @@ fn baked(spec: &BakeSpec, progress: &mut dyn FnMut(Progress)) -> Result<Baked, B
         supported,
         render: spec.render.as_ref().map(|r| moved(r, -centre)),
         portion: None,
-    }
+    })
     .restressed();
 
     clock.enter(Stage::Followed)?;
-    let kept = asset.modes.count();
+    let kept = asset.modes().count();
     let follow = spec.followed.unwrap_or_else(|| followed(&asset));
-    asset.modes.residual_modes = kept - follow;
+    asset.parts_mut().modes.residual_modes = kept - follow;
 
     let report = BakeReport {
         analysis: analysis.report(&fine),

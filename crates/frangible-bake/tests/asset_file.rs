@@ -18,6 +18,9 @@ fn a_baked_asset_comes_back_bit_for_bit() {
     // Debug shows every number with all its digits and signs.
     assert!(format!("{asset:?}") == format!("{back:?}"));
     assert!(bytes == back.to_bytes());
-    let rebuilt = TetMesh::new(back.fracture.positions.clone(), back.fracture.tets.clone());
-    assert!(rebuilt.neighbours == back.fracture.neighbours);
+    let rebuilt = TetMesh::new(
+        back.fracture().positions.clone(),
+        back.fracture().tets.clone(),
+    );
+    assert!(rebuilt.neighbours == back.fracture().neighbours);
 }

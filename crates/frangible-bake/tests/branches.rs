@@ -52,7 +52,7 @@ fn peak(asset: &Asset, contact: &Contact) -> f32 {
         .unwrap()
         .unwrap();
     let root = Vec3::splat(0.6 * HUB as f32);
-    let near = |e: &u32| asset.fracture.centroid(*e as usize).distance(root) < 0.02;
+    let near = |e: &u32| asset.fracture().centroid(*e as usize).distance(root) < 0.02;
     let tets: Vec<u32> = body.weak_tets().iter().copied().filter(near).collect();
     let (motion, step) = (blow.motion(), blow.time_step());
     let end = motion.begin(motion.steps(), step);
@@ -71,8 +71,8 @@ fn peak(asset: &Asset, contact: &Contact) -> f32 {
 fn the_modes_that_a_blow_on_a_branch_follows_give_the_stress_that_all_modes_do() {
     let chosen = jack();
     let mut all = chosen.clone();
-    all.modes.residual_modes = 0;
-    let followed = chosen.modes.followed();
+    all.parts_mut().modes.residual_modes = 0;
+    let followed = chosen.modes().followed();
     // Fewer than eight bendings of each arm in both directions, and more than four.
     assert!((64..MODES).contains(&followed), "{followed}");
     let steel = Material::preset("steel").unwrap();

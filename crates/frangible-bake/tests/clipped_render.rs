@@ -135,11 +135,11 @@ fn check(mesh: &InputMesh, tets: usize) -> [f64; 2] {
         )
     };
     let asset = bake(&spec).unwrap();
-    let render = asset.render.clone().unwrap();
+    let render = asset.render().cloned().unwrap();
     let shift = render.positions[0].as_dvec3() - mesh.positions[0];
-    let edge = f64::from(asset.fracture.mean_edge());
+    let edge = f64::from(asset.fracture().mean_edge());
     let top = asset
-        .fracture
+        .fracture()
         .positions
         .iter()
         .copied()

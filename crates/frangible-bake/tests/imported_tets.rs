@@ -40,7 +40,8 @@ fn baked(input: &TetInput, choice: AnalysisChoice, quadratic: bool) -> BakeRepor
     let Baked { asset, report } = bake_with(&spec, |_| {}).unwrap();
     asset.validate().unwrap();
     assert_eq!(
-        asset.fracture.tets, input.tets,
+        asset.fracture().tets,
+        input.tets,
         "the tetrahedra stay as they are"
     );
     report
@@ -103,7 +104,7 @@ fn a_held_group_of_few_large_tetrahedra_is_clamped_by_the_lattice() {
     };
     let Baked { asset, report } = bake_with(&spec, |_| {}).unwrap();
     assert_eq!(
-        (asset.supported.len(), report.rigid_motions),
+        (asset.supported().len(), report.rigid_motions),
         (wall.len(), 0)
     );
     // Cantilever of length L, height h: 1.8751² √(E/12ρ) h / 2πL²; shear lowers it by some per cent at L/h = 4.

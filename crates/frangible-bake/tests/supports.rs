@@ -224,10 +224,10 @@ fn a_cantilever_of_any_shape_rings_at_its_bending_frequency() {
                 &format!("{held} m, {elements:?}"),
             );
         }
-        let along = || asset.fracture.positions.iter().map(|p| p.x);
+        let along = || asset.fracture().positions.iter().map(|p| p.x);
         let limit = along().fold(f32::INFINITY, f32::min) + held as f32 + 1e-6;
         assert_eq!(
-            asset.supported.len(),
+            asset.supported().len(),
             along().filter(|x| *x < limit).count()
         );
     }
@@ -278,12 +278,12 @@ fn an_asset_knows_its_supported_nodes() {
     ]);
     let Baked { asset, report } = bake_with(&spec, |_| {}).unwrap();
     assert!(asset.is_supported());
-    assert!(report.unknowns < 3 * asset.analysis.nodes.len());
+    assert!(report.unknowns < 3 * asset.analysis().nodes.len());
     let centre = DVec3::new(0.1, 0.1, 0.005);
-    for (v, p) in asset.fracture.positions.iter().enumerate() {
+    for (v, p) in asset.fracture().positions.iter().enumerate() {
         let p = p.as_dvec3() + centre;
         let inside = p.x < 1e-6 || p.distance(DVec3::new(0.2, 0.2, 0.005)) < 0.03;
-        let supported = asset.supported.contains(&(v as u32));
+        let supported = asset.supported().contains(&(v as u32));
         // The irregular mesh has its centre of mass within a fraction of a millimetre.
         let near = p.x < 1e-3 || (p.distance(DVec3::new(0.2, 0.2, 0.005)) - 0.03).abs() < 1e-3;
         assert!(supported == inside || near, "node {v} at {p}");
@@ -306,7 +306,7 @@ fn a_shelf_that_breaks_leaves_a_piece_in_the_wall() {
     });
     let asset = bake(&spec).unwrap();
     let read = Asset::from_bytes(&asset.to_bytes()).unwrap();
-    assert_eq!(read.supported, asset.supported);
+    assert_eq!(read.supported(), asset.supported());
     let body = Body::new(read.into(), 1).unwrap();
     let striker = Striker::rigid()
         .with_contact_modulus(2.3e11)
@@ -440,11 +440,11 @@ fn a_group_holds_what_the_same_region_holds() {
         asset: group,
         report: at_group,
     } = bake_with(&by_group, |_| {}).unwrap();
-    assert_eq!(region.supported, group.supported);
+    assert_eq!(region.supported(), group.supported());
     assert_eq!(at_region.frequencies, at_group.frequencies);
     // Its nodes one by one are the same part.
     let origin = region
-        .fracture
+        .fracture()
         .positions
         .iter()
         .fold(DVec3::INFINITY, |low, p| low.min(p.as_dvec3()));
@@ -452,13 +452,13 @@ fn a_group_holds_what_the_same_region_holds() {
         name: "wall".into(),
         triangles: end_face().triangles.into_iter().take(2).collect(),
         points: region
-            .supported
+            .supported()
             .iter()
-            .map(|&v| region.fracture.positions[v as usize].as_dvec3() - origin)
+            .map(|&v| region.fracture().positions[v as usize].as_dvec3() - origin)
             .collect(),
     }];
     let points = bake(&by_group).unwrap();
-    assert_eq!(region.supported, points.supported);
+    assert_eq!(region.supported(), points.supported());
 }
 
 #[test]

@@ -50,7 +50,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         ..BakeSpec::new("tile", shape, Material::preset("porcelain")?)
     };
     let asset = bake(&spec)?;
-    eprintln!("{} tetrahedra", asset.fracture.tets.len());
+    eprintln!("{} tetrahedra", asset.fracture().tets.len());
     let kind = Breakable::new(Arc::new(asset))?;
     let mut config = WorldConfig::default();
     config.breaking = Breaking::AfterStep {
@@ -102,7 +102,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             }
         }
         for event in world.step()? {
-            match &event.asset.portion {
+            match event.asset.portion() {
                 Some(portion) => {
                     again += 1;
                     deepest = deepest.max(portion.generation() + 1);
@@ -181,7 +181,7 @@ fn write(folder: &Path, curve: &[[f64; 6]]) -> Result<(), Box<dyn Error>> {
 }
 
 fn is_piece(body: &Body) -> bool {
-    body.asset().portion.is_some()
+    body.asset().portion().is_some()
 }
 
 /// Resident memory of this process, MB; zero where the system does not tell.

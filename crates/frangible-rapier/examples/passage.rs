@@ -42,7 +42,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let seconds: f32 = words.next().map_or(Ok(0.25), |word| word.parse())?;
     let bodies = concat!(env!("CARGO_MANIFEST_DIR"), "/../frangible/tests/bodies");
     let pane = Asset::load(format!("{bodies}/pane.frangible"))?;
-    let fields = Fields::of_material(&pane.material);
+    let fields = Fields::of_material(pane.material());
     let steel = Material::preset("steel")?;
     let throw = Throw {
         pane: Breakable::new(Arc::new(pane))?.with_fields(fields)?,
@@ -100,7 +100,7 @@ impl Throw {
             Rigid::free(m.mass, m.inertia, [m.centre, DVec3::ZERO, DVec3::ZERO])
         };
         let Outcome::Broke(fracture) = &outcome else {
-            take_held(&mut still(&body.asset().mass), &mut ball, &pushes);
+            take_held(&mut still(&body.asset().mass()), &mut ball, &pushes);
             return Ok((ball[0].linear - velocity).z);
         };
         let order = nearest_first(fracture, &[place.position]);

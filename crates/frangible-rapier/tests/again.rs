@@ -72,10 +72,10 @@ fn fall(method: Option<Method>, change: impl Fn(&mut WorldConfig)) -> (Vec<Break
             let parent = before.iter().find(|(h, _)| *h == event.parent);
             let Some((_, parent)) = parent else { continue };
             let fragments = &event.fracture.fragments;
-            let density = event.asset.material.density;
+            let density = event.asset.material().density;
             breaks.push(Break {
                 step: event.step,
-                generation: event.asset.portion.as_ref().map_or(0, |p| p.generation()),
+                generation: event.asset.portion().map_or(0, |p| p.generation()),
                 masses: fragments.iter().map(|f| f.mass.mass.to_bits()).collect(),
                 parent_mass: f64::from(parent.mass()),
                 momentum: [momentum([parent].into_iter()), {
@@ -156,7 +156,7 @@ fn cracked(seed: u64) -> Option<f64> {
     world.set_piece_model(Some(Arc::new(Pieces::new(Method::Reanalysis))));
     world.physics.gravity = Vector::ZERO;
     // In glass a crack runs until the body has parted, but for what is too tough for it: here all but a patch.
-    let mesh = &pane().fracture;
+    let mesh = pane().fracture();
     let factors = |e: usize| {
         let at = mesh.centroid(e);
         let brittle = at.x.abs() < 0.13 && (-0.1..0.13).contains(&at.y);
@@ -169,7 +169,7 @@ fn cracked(seed: u64) -> Option<f64> {
     fields.of_tet = (0..mesh.tets.len()).map(factors).collect();
     let kind = Breakable::new(Arc::clone(pane())).unwrap();
     let body = kind.with_fields(fields).unwrap().body(seed);
-    let intact = body.asset().modes.frequency(0);
+    let intact = body.asset().modes().frequency(0);
     let handle = world
         .insert_breakable(body, Pose::IDENTITY, Vector::ZERO, Vector::ZERO)
         .unwrap();
@@ -184,7 +184,7 @@ fn cracked(seed: u64) -> Option<f64> {
         }
         let body = world.breakable(handle)?;
         if !body.state().is_intact() {
-            return Some(body.asset().modes.frequency(0) / intact);
+            return Some(body.asset().modes().frequency(0) / intact);
         }
         // It drifts.
         let rigid = world.physics.bodies.get_mut(handle).unwrap();

@@ -67,7 +67,7 @@ fn a_ball_leaves_a_body_that_holds_as_the_blow_says() {
         let momentum = world.momentum();
         let energy = world.kinetic_energy();
         let (breaks, held) = step_to_hit(&mut world);
-        assert!(breaks.is_empty(), "{} broke", asset.name);
+        assert!(breaks.is_empty(), "{} broke", asset.name());
         let answer = &held[0].report.contacts[0];
         // Body and world frame are the same but for what the step turned.
         let (point, normal) = (answer.point, answer.normal);
@@ -77,7 +77,7 @@ fn a_ball_leaves_a_body_that_holds_as_the_blow_says() {
         let leaves = leaving(&world);
         println!(
             "{}: the engine gave {:.6} N·s, the blow {:.6} N·s in {:.0} µs; it leaves at {leaves:.4} m/s, says the blow {:.4} m/s",
-            asset.name,
+            asset.name(),
             held[0].contacts[0].impulse,
             answer.impulse,
             1e6 * answer.duration,
@@ -277,7 +277,7 @@ fn two_bodies_that_meet_and_hold_take_the_mean_of_their_blows() {
         contacts.map(|c| c.impulse).sum::<f64>()
     };
     let mean = 0.5 * (blow(one) + blow(other));
-    let given = (world.physics.bodies[one].linvel().as_dvec3() * pane().mass.mass).length();
+    let given = (world.physics.bodies[one].linvel().as_dvec3() * pane().mass().mass).length();
     println!(
         "pane {:.4}, block {:.4}, mean {mean:.4}, given {given:.4} N·s",
         blow(one),

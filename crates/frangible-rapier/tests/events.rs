@@ -57,7 +57,7 @@ fn a_contact_holds_the_numbers_of_the_impact() {
         contact.normal
     );
     assert!((contact.approach_speed - 5.0).abs() < 1e-3);
-    let m = asset.mass.mass as f32;
+    let m = asset.mass().mass as f32;
     let e = contact.striker.restitution;
     let expected = (1.0 + e) * 5.0 / (1.0 / m + 1.0 / 0.3);
     assert!(
@@ -71,7 +71,7 @@ fn a_contact_holds_the_numbers_of_the_impact() {
         contact.striker.contact_modulus,
         SurfaceProperties::STEEL.contact_modulus
     );
-    let mean = 0.5 * (SurfaceProperties::STEEL.restitution + asset.material.restitution as f32);
+    let mean = 0.5 * (SurfaceProperties::STEEL.restitution + asset.material().restitution as f32);
     assert!((e - mean).abs() < 1e-6);
     // The impulse is what the ball lost.
     let lost = 0.3 * (6.0 - world.physics.bodies[ball].linvel().z);
@@ -105,7 +105,7 @@ fn a_fall_on_the_floor_pushes_up_with_an_unmovable_striker() {
         "√(2 g 0.25 m) = 2.2 m/s, got {speed}"
     );
     let e = contacts[0].striker.restitution;
-    let expected = (1.0 + e) * speed * asset.mass.mass as f32;
+    let expected = (1.0 + e) * speed * asset.mass().mass as f32;
     assert!(
         total <= expected * 1.0001 && total > 0.8 * expected,
         "{total} N·s of at most {expected}"

@@ -239,7 +239,7 @@ fn a_collider_has_no_more_parts_than_asked_for() {
         let boxed = box_asset(HALF, CELLS);
         // A body that fills less of its bounds is no box, whatever its cells.
         let mut hollow = (*boxed).clone();
-        hollow.mass.volume *= 0.9;
+        hollow.parts_mut().mass.volume *= 0.9;
         let [pane, hollow] = [boxed, Arc::new(hollow)].map(|asset| {
             let still = Vector::ZERO;
             let handle = world.insert_breakable(body(&asset), at(0.0, 0.0, 0.0), still, still);
@@ -265,7 +265,7 @@ fn a_body_carries_what_the_quick_margin_says() {
     let config = FractureConfig::default();
     for (asset, held) in [(block(), 0.0), (shelf(), 9.81)] {
         let body = body(asset);
-        let points = &asset.fracture.positions;
+        let points = &asset.fracture().positions;
         for k in 0..40 {
             let force = |j: usize| {
                 let number = |seed: usize| ((seed * 7919) % 1000) as f32 / 500.0 - 1.0;

@@ -366,7 +366,7 @@ fn slab_on_a_shelf() -> (BreakableWorld, RigidBodyHandle, Vec<RigidBodyHandle>) 
     let mut world = floor(AtRest::Merge);
     let half = Vec3::new(0.2, 0.01, 0.2);
     let mut asset = (*box_asset(half, [4, 1, 4])).clone();
-    asset.supported = (asset.fracture.positions.iter().zip(0..))
+    *asset.parts_mut().supported = (asset.fracture().positions.iter().zip(0..))
         .filter(|(p, _)| p.x < -0.19)
         .map(|(_, node)| node)
         .collect();
@@ -527,7 +527,7 @@ fn a_merged_piece_that_is_hit_hard_breaks_as_one_that_sleeps_does() {
     }
     let event = broke.iter().find(|e| e.parent == hit).expect("it breaks");
     assert_eq!(event.cause, BreakCause::Impact);
-    assert!(event.asset.portion.is_some() && event.fragments.len() > 1);
+    assert!(event.asset.portion().is_some() && event.fragments.len() > 1);
     assert!(!world.physics.bodies.contains(hit));
     assert!(world.rubble_of(hit).is_none());
     // Its own pieces are of the same origin.

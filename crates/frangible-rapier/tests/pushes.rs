@@ -94,7 +94,7 @@ fn a_scripted_blow_adds_exactly_its_impulse() {
         let point = Vector::new(0.03, 1.02, 0.0);
         world.fracture_at(handle, point, impulse).unwrap();
         let events = world.step().unwrap().to_vec();
-        assert_eq!(events.len(), usize::from(breaks), "{}", asset.name);
+        assert_eq!(events.len(), usize::from(breaks), "{}", asset.name());
         let gained = world.momentum() - start;
         let rounding = 1e-4 * world.momentum().length();
         assert!(

@@ -115,7 +115,7 @@ fn broke_at(world: &mut BreakableWorld, half: f32) -> Option<f32> {
             assert_eq!(event.strikers, [weight]);
             assert!(event.fracture.fragments.iter().any(|f| f.supported));
             // No piece reaches from one held end to the other any more.
-            let whole = length(&shelf().fracture.positions);
+            let whole = length(&shelf().fracture().positions);
             let pieces = event.fracture.fragments.iter();
             assert!(
                 pieces

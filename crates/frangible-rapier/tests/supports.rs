@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crate::common::{Judge, at, body, box_asset, sliced, step_to_break, unbreakable, world};
 use frangible::glam::Vec3;
+use frangible::internals::asset::AssetParts;
 use frangible::{Asset, Outcome};
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_rapier::rapier3d::math::{Pose, Vector};
@@ -17,13 +18,13 @@ const PANE: Vec3 = Vec3::new(0.003, 0.15, 0.15);
 /// The box, held at the nodes for which `held` is true.
 fn held_box(half: Vec3, cells: [usize; 3], held: impl Fn(Vec3) -> bool) -> Arc<Asset> {
     let asset = box_asset(half, cells);
-    let positions = asset.fracture.positions.iter().zip(0_u32..);
+    let positions = asset.fracture().positions.iter().zip(0_u32..);
     let supported: Vec<u32> = positions.filter(|(p, _)| held(**p)).map(|p| p.1).collect();
     assert!(!supported.is_empty());
-    Arc::new(Asset {
+    Arc::new(Asset::from_parts(AssetParts {
         supported,
-        ..(*asset).clone()
-    })
+        ..(*asset).clone().into_parts()
+    }))
 }
 
 /// Every impact slices the box; pieces whose centre of mass `held` accepts are supported.

@@ -117,7 +117,7 @@ fn each(
             },
         );
     }
-    Ok([asset.fracture.tets.len(), asset.modes.followed()])
+    Ok([asset.fracture().tets.len(), asset.modes().followed()])
 }
 
 /// A built-in scene, or that of a file.

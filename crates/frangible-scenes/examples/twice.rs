@@ -60,7 +60,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             impact(&cracked, std::slice::from_ref(&hit), &config)?,
             impact(&weaker, std::slice::from_ref(&hit), &config)?,
         );
-        let frequency = |body: &Body| body.asset().modes.frequency(0);
+        let frequency = |body: &Body| body.asset().modes().frequency(0);
         let area: f64 = area_of(&cracked);
         let ends = [
             parts_at(&cracked, hit.clone(), &config, false)?,
@@ -161,7 +161,7 @@ fn first_crack(
 
 /// Area of a body's cracks, m².
 fn area_of(body: &Body) -> f64 {
-    let faces = body.state().faces(&body.asset().fracture);
+    let faces = body.state().faces(body.asset().fracture());
     let area = |(p, corners): ([Vec3; 4], usize)| {
         let triangle = |k: usize| 0.5 * (p[k - 1] - p[0]).cross(p[k] - p[0]).length();
         (2..corners).map(triangle).sum::<f32>()

@@ -150,7 +150,7 @@ fn check_painted(body: &BodySpec, opened: &Opened) -> Result<(), SceneError> {
     };
     let colors = match opened {
         Opened::Shape { render, .. } => render.as_ref().map_or(0, |r| r.colors.len()),
-        Opened::Asset(asset) => asset.render.as_ref().map_or(0, |r| r.colors.len()),
+        Opened::Asset(asset) => asset.render().map_or(0, |r| r.colors.len()),
     };
     if colors > 0 {
         return Ok(());

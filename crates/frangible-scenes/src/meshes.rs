@@ -113,7 +113,7 @@ impl Builder {
 pub(crate) fn whole(node: &str, asset: &Asset, surfaces: &BodySurfaces) -> RecordedMesh {
     let name = surfaces.mesh_name(node);
     let mut builder = Builder::default();
-    if let Some(render) = &asset.render {
+    if let Some(render) = asset.render() {
         builder.mesh.more_uvs = vec![Vec::new(); render.more_uvs.len()];
         let mut triangles = Vec::with_capacity(render.triangles.len());
         for (triangle, normals) in render.triangles.iter().zip(render.corner_normals()) {
@@ -127,8 +127,13 @@ pub(crate) fn whole(node: &str, asset: &Asset, surfaces: &BodySurfaces) -> Recor
         return builder.finish(name, parts);
     }
     let mut indices = Vec::new();
-    for (triangle, &normals) in asset.surface.triangles.iter().zip(&asset.surface.normals) {
-        let corners = triangle.map(|v| asset.fracture.positions[v as usize]);
+    for (triangle, &normals) in asset
+        .surface()
+        .triangles
+        .iter()
+        .zip(&asset.surface().normals)
+    {
+        let corners = triangle.map(|v| asset.fracture().positions[v as usize]);
         indices.extend(builder.triangle(*triangle, corners, normals, None));
     }
     builder.finish(name, vec![(surfaces.outer, indices)])

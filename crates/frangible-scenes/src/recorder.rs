@@ -171,7 +171,7 @@ impl Recorder {
                 ("volume_m3".into(), fragment.mass.volume),
             ];
             let mass = fragment.mass.mass;
-            let sounding = piece_sounding(world, body, &event.asset.material, mass);
+            let sounding = piece_sounding(world, body, event.asset.material(), mass);
             self.track(name, mesh, body, extras, Role::Piece, sounding);
         }
         let pieces = first..self.recording.nodes.len();

@@ -21,10 +21,10 @@ impl Numbers {
 
     /// A blow on a random place of the surface, from outside, up to 20 m/s, most of them soft.
     fn blow(&mut self, asset: &Asset) -> Contact {
-        let triangle = (self.next() * asset.surface.triangles.len() as f64) as usize;
+        let triangle = (self.next() * asset.surface().triangles.len() as f64) as usize;
         let corners =
-            asset.surface.triangles[triangle].map(|v| asset.fracture.positions[v as usize]);
-        let inward = -asset.surface.normals[triangle][0];
+            asset.surface().triangles[triangle].map(|v| asset.fracture().positions[v as usize]);
+        let inward = -asset.surface().normals[triangle][0];
         let tilt = Vec3::from_array(std::array::from_fn(|_| self.next() as f32 - 0.5));
         let speed = 20.0 * self.next().powi(6);
         let striker = if self.next() < 0.5 {

@@ -34,8 +34,8 @@ fn areas(asset: &Asset, grooves: &[Patch], trace: &CrackTrace) -> [f32; 2] {
     let mut sums = [0.0; 2];
     for cut in trace.cracks.iter().flatten() {
         let tet = cut.tet as usize;
-        let area = crossing_area(asset.fracture.corners(tet), cut.values);
-        let p = asset.fracture.centroid(tet);
+        let area = crossing_area(asset.fracture().corners(tet), cut.values);
+        let p = asset.fracture().centroid(tet);
         let inside = grooves.iter().any(|g| g.zone.contains(p));
         sums[0] += if inside { area } else { 0.0 };
         sums[1] += area;
@@ -70,16 +70,16 @@ fn a_scored_bar_breaks_along_its_grooves() {
     let asset = bake(&scene).unwrap()[0].asset.clone();
     let grooves = &scene.bodies[0].weakness;
     let inside = |e: usize| {
-        let p = asset.fracture.centroid(e);
+        let p = asset.fracture().centroid(e);
         grooves.iter().any(|g| g.zone.contains(p))
     };
-    let volume = |e: usize| asset.fracture.volume(e);
-    let all = 0..asset.fracture.tets.len();
+    let volume = |e: usize| asset.fracture().volume(e);
+    let all = 0..asset.fracture().tets.len();
     let of_volume =
         all.clone().filter(|&e| inside(e)).map(volume).sum::<f64>() / all.map(volume).sum::<f64>();
     println!(
         "edge {} m, {of_volume:.3} of the volume in grooves",
-        asset.fracture.mean_edge()
+        asset.fracture().mean_edge()
     );
     let corner = Vec3::new(0.079, 0.039, 0.0);
     let middle = Vec3::new(0.003, 0.004, 0.0045);

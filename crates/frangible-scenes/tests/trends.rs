@@ -20,7 +20,7 @@ fn damage(asset: &Arc<Asset>, contact: Contact, config: &FractureConfig, seeds: 
 
 fn changed(asset: &Arc<Asset>, change: impl FnOnce(&mut Material)) -> Arc<Asset> {
     let mut asset = Asset::clone(asset);
-    change(&mut asset.material);
+    change(asset.parts_mut().material);
     Arc::new(asset)
 }
 

@@ -73,7 +73,7 @@ fn unmatched_edges(mesh: &TriMesh) -> usize {
 fn fragments_tile_the_body() {
     let (mut count, mut pinched, mut worst, mut worst_f32) = (0, 0, 0.0_f64, 0.0_f64);
     breaks(|name, asset, fracture| {
-        let body = asset.mass.volume;
+        let body = asset.mass().volume;
         let sum: f64 = fracture.fragments.iter().map(|f| f.mass.volume).sum();
         let emitted: f64 = fracture.fragments.iter().map(|f| f.mesh.volume()).sum();
         let mass: f64 = fracture.fragments.iter().map(|f| f.mass.mass).sum();
@@ -88,9 +88,9 @@ fn fragments_tile_the_body() {
             "{name}: meshes enclose {emitted}, not {body}"
         );
         assert!(
-            (mass / asset.mass.mass - 1.0).abs() < 1e-9,
+            (mass / asset.mass().mass - 1.0).abs() < 1e-9,
             "{name}: {mass} kg, not {}",
-            asset.mass.mass
+            asset.mass().mass
         );
         assert!(fracture.report.volume_error.abs() < 1e-9);
         assert!(fracture.fragments.len() > 1, "{name}");
@@ -134,13 +134,13 @@ fn a_soft_hit_holds_and_a_harder_one_cracks_more() {
                 assert!(
                     matches!(outcome, Outcome::Held { .. }),
                     "{}, {model}, seed {seed}",
-                    asset.name
+                    asset.name()
                 );
                 assert_eq!(
                     outcome.report().cracks,
                     0,
                     "{}, {model}, seed {seed}",
-                    asset.name
+                    asset.name()
                 );
             }
         }

@@ -9,9 +9,9 @@ use crate::bodies::{block, steel_ball};
 /// The brick without damping, crushed at this pressure, Pa.
 fn brick(pressure: f64) -> Body {
     let mut asset = block().asset().as_ref().clone();
-    asset.material.stiffness_damping = 0.0;
-    asset.material.mass_damping = 0.0;
-    asset.material.crushing_pressure = pressure;
+    asset.parts_mut().material.stiffness_damping = 0.0;
+    asset.parts_mut().material.mass_damping = 0.0;
+    asset.parts_mut().material.crushing_pressure = pressure;
     Breakable::new(asset).unwrap().body(1)
 }
 
@@ -87,7 +87,7 @@ fn what_is_crushed_cracks_less() {
 fn pressures_that_are_none_are_refused() {
     let mut asset = block().asset().as_ref().clone();
     for wrong in [0.0, -1.0, f64::NAN] {
-        asset.material.crushing_pressure = wrong;
+        asset.parts_mut().material.crushing_pressure = wrong;
         let refused = Breakable::new(asset.clone()).unwrap_err().to_string();
         assert!(refused.contains("crushing pressure"), "{refused}");
         let body = brick(1e8);

@@ -156,7 +156,7 @@ fn no_steady_force_has_less_margin_than_the_bound_says() {
             let outcome = rest(&body, &[force], gravity, &config).unwrap();
             let report = outcome.report();
             let found = report.strength / report.peak_stress;
-            assert!(least <= found, "{}: {least} {found}", kind.asset().name);
+            assert!(least <= found, "{}: {least} {found}", kind.asset().name());
             assert!(least > 0.0);
         }
     }

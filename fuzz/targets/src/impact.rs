@@ -22,7 +22,7 @@ fn body(draw: &mut Draw<'_>) -> Option<Body> {
         kind = Breakable::new(asset).ok()?;
     }
     if draw.below(8) == 7 {
-        let mut material = kind.asset().material.clone();
+        let mut material = kind.asset().material().clone();
         for (number, least, most) in [
             (&mut material.youngs_modulus, 1e8, 5e11),
             (&mut material.density, 300.0, 2e4),
@@ -149,7 +149,7 @@ fn check(body: &Body, outcome: &Outcome) {
         Outcome::Broke(fracture) => fracture,
         other => panic!("an outcome that nobody knows: {other:?}"),
     };
-    let whole = &body.asset().mass;
+    let whole = &body.asset().mass();
     let (mut mass, mut volume) = (0.0, 0.0);
     assert!(!fracture.fragments.is_empty());
     for fragment in &fracture.fragments {

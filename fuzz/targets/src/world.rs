@@ -141,7 +141,7 @@ impl Play {
         match draw.below(16) {
             0..=2 if self.several || world.breakables().next().is_none() => {
                 let body = kinds()[draw.below(3)].body(u64::from(draw.byte()));
-                let mass = body.asset().mass.mass;
+                let mass = body.asset().mass().mass;
                 let (pose, moves, spins) = (pose(draw), vector(draw, 15.0), vector(draw, 10.0));
                 if let Ok(handle) = world.insert_breakable(body, pose, moves, spins) {
                     self.bodies.push(handle);
@@ -255,7 +255,7 @@ impl Play {
         for event in made {
             let fragments = &event.fracture.fragments;
             let mass: f64 = fragments.iter().map(|f| f.mass.mass).sum();
-            let whole = event.asset.mass.mass;
+            let whole = event.asset.mass().mass;
             assert!((mass / whole - 1.0).abs() < 1e-6, "{mass} kg of {whole}");
             for energy in [
                 event.kinetic_before,

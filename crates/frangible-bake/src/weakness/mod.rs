@@ -35,9 +35,9 @@ pub fn patched(mut fields: Fields, asset: &Asset, patches: &[Patch]) -> Result<F
     }
     fields
         .of_tet
-        .resize(asset.fracture.tets.len(), Factors::ONE);
+        .resize(asset.fracture().tets.len(), Factors::ONE);
     for (tet, factors) in fields.of_tet.iter_mut().enumerate() {
-        let p = asset.fracture.centroid(tet);
+        let p = asset.fracture().centroid(tet);
         let over = patches.iter().filter(|patch| patch.zone.contains(p));
         over.for_each(|patch| patch.paint(factors));
     }

@@ -125,9 +125,9 @@ pub fn from_paint(asset: &Asset, paint: &[Paint]) -> Result<Fields, InputError> 
     if paint.is_empty() {
         return Ok(Fields::default());
     }
-    let drawn = asset.render.as_ref();
+    let drawn = asset.render();
     let Some(drawn) = drawn.filter(|r| !r.triangles.is_empty() && !r.colors.is_empty()) else {
-        let name = &asset.name;
+        let name = asset.name();
         return Err(InputError::Field(format!(
             "`{name}` has no vertex colours to take the weakness from; export its mesh with vertex colours and bake it again"
         )));

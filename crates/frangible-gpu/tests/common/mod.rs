@@ -65,11 +65,11 @@ impl Numbers {
 
     /// A blow on a random place of the surface, from outside, at a speed, m/s.
     pub(crate) fn blow(&mut self, asset: &Asset, speed: f64) -> Contact {
-        let triangle = (self.next() * asset.surface.triangles.len() as f64) as usize;
-        let corner = asset.surface.triangles[triangle][0];
-        let point = asset.fracture.positions[corner as usize];
+        let triangle = (self.next() * asset.surface().triangles.len() as f64) as usize;
+        let corner = asset.surface().triangles[triangle][0];
+        let point = asset.fracture().positions[corner as usize];
         let tilt = Vec3::from_array(std::array::from_fn(|_| self.next() as f32 - 0.5));
-        let normal = (tilt - asset.surface.normals[triangle][0]).normalize();
+        let normal = (tilt - asset.surface().normals[triangle][0]).normalize();
         let striker = self.striker();
         Contact::collision(asset, point, normal, speed, striker)
     }
@@ -129,7 +129,7 @@ pub(crate) fn uneven(kind: &Breakable) -> Breakable {
 /// A copy of a kind that is weak only at its outermost 3 mm along x and y: at the narrow edges of a pane.
 pub(crate) fn weak_rim(kind: &Breakable) -> Breakable {
     let asset: &Arc<Asset> = kind.asset();
-    let positions = asset.fracture.positions.iter();
+    let positions = asset.fracture().positions.iter();
     let half = positions.fold(Vec3::ZERO, |most, p| most.max(p.abs()));
     let fields = frangible::internals::Fields::from_function(asset, |p| {
         let rim = p.abs().truncate().cmpgt(half.truncate() - 0.003).any();

@@ -138,7 +138,7 @@ fn ice_ball(speed: f32) -> Result<Subject, Box<dyn Error>> {
         ..BakeSpec::new("ball of ice", Shape::Solid(shape), ice)
     };
     let asset = frangible_bake::bake(&spec)?;
-    let impulse = asset.mass.mass as f32 * speed;
+    let impulse = asset.mass().mass as f32 * speed;
     let lowest = Vec3::new(0.0, 0.0, -0.03);
     let contact = Contact {
         impulse,

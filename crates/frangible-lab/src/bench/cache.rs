@@ -55,7 +55,7 @@ impl Cache {
         let material = Material::preset(material)?;
         if !self.rebake
             && let Ok(asset) = Asset::load(&path)
-            && asset.material == material
+            && *asset.material() == material
             && let Some(seconds) = fs::read_to_string(&beside)
                 .ok()
                 .and_then(|s| s.trim().parse().ok())

@@ -151,10 +151,10 @@ pub fn measure(cache: &Cache, progress: &mut dyn FnMut(&str, f64)) -> Result<Fin
     }
     let asset = body.asset();
     Ok(Findings {
-        tets: asset.fracture.tets.len(),
-        nodes: asset.fracture.positions.len(),
+        tets: asset.fracture().tets.len(),
+        nodes: asset.fracture().positions.len(),
         weak_points: body.weak_tets().len(),
-        modes: asset.modes.count(),
+        modes: asset.modes().count(),
         clock: clock_cost(),
         game: game_timed,
         game_shares: Class::ALL
@@ -200,7 +200,7 @@ impl<'a> Source<'a> {
     }
 
     fn draw(&mut self) -> Result<Contact, BenchError> {
-        let surface = &self.asset.surface;
+        let surface = self.asset.surface();
         let triangle = (self.uniform() * surface.triangles.len() as f64) as usize;
         let corner = surface.triangles[triangle][0] as usize;
         let inward = -surface.normals[triangle][0];
@@ -214,7 +214,7 @@ impl<'a> Source<'a> {
         } else {
             self.stone.clone()
         };
-        let point: Vec3 = self.asset.fracture.positions[corner];
+        let point: Vec3 = self.asset.fracture().positions[corner];
         Ok(Contact::collision(
             self.asset,
             point,

@@ -205,7 +205,7 @@ impl Blow {
         Ok(Row {
             scene: subject.scene.into(),
             points: report.map_or(0, |r| r.weak_points),
-            modes: new.asset().modes.followed(),
+            modes: new.asset().modes().followed(),
             steps: report.map_or(0, |r| r.time_steps),
             cracks: report.map_or(0, |r| r.cracks),
             cut: report.map_or(0, |r| r.arrivals.iter().map(Vec::len).sum()),

@@ -261,7 +261,7 @@ impl Subject {
     /// None but a preset that is missing.
     pub fn contact(&self, asset: &Asset, speed: f64) -> Result<Contact, BenchError> {
         let (low, high) = asset
-            .fracture
+            .fracture()
             .positions
             .iter()
             .fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), &p| {

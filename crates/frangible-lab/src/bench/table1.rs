@@ -163,11 +163,11 @@ pub fn measure(
     let asset = &baked.asset;
     Ok(Row {
         subject: *subject,
-        nodes: asset.fracture.positions.len(),
-        tets: asset.fracture.tets.len(),
-        analysis_elements: asset.analysis.elements.len(),
-        analysis_nodes: asset.analysis.nodes.len(),
-        modes: asset.modes.count(),
+        nodes: asset.fracture().positions.len(),
+        tets: asset.fracture().tets.len(),
+        analysis_elements: asset.analysis().elements.len(),
+        analysis_nodes: asset.analysis().nodes.len(),
+        modes: asset.modes().count(),
         weak_points: body.weak_tets().len(),
         file_size: std::fs::metadata(&baked.path).map_or(0, |about| about.len()),
         bake: baked.seconds,

@@ -82,9 +82,9 @@ pub(crate) fn slab_inputs(slab: &Asset) -> String {
         1e3 * SLAB[0],
         1e3 * SLAB[1],
         1e3 * SLAB[2],
-        slab.fracture.tets.len(),
-        slab.modes.count(),
-        1e6 * slab.material.energy_depth,
+        slab.fracture().tets.len(),
+        slab.modes().count(),
+        1e6 * slab.material().energy_depth,
         SLAB_WEAK_POINTS,
         1e3 * radius
     )
@@ -92,6 +92,6 @@ pub(crate) fn slab_inputs(slab: &Asset) -> String {
 
 pub(crate) fn changed(asset: &Arc<Asset>, change: impl FnOnce(&mut Material)) -> Arc<Asset> {
     let mut asset = Asset::clone(asset);
-    change(&mut asset.material);
+    change(asset.parts_mut().material);
     Arc::new(asset)
 }

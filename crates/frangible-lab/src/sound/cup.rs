@@ -155,7 +155,7 @@ impl Cup {
 
 /// The cup as it sounds, and the modal forces of a newton on its wall near the rim at an angle about z; the handle is at −y.
 fn at_rim(cup: &Body, angle: f64) -> Result<(frangible_sound::Body, Vec<f32>), Box<dyn Error>> {
-    let damping = AudibleDamping::of(&cup.asset().material);
+    let damping = AudibleDamping::of(cup.asset().material());
     let (shape, body) = AssetSound::new(cup, &damping, Hold::Free)?;
     let outward = Vec3::new(angle.cos() as f32, angle.sin() as f32, 0.0);
     let push = shape.push(0.06 * outward + Vec3::new(0.0, 0.0, 0.045), -outward);

@@ -64,7 +64,7 @@ impl Faces {
     ) -> Self {
         let modes = &elastic.modes;
         let width = modes.count().next_multiple_of(LANES);
-        let fracture = &portion.root().fracture;
+        let fracture = portion.root().fracture();
         let young = material.youngs_modulus as f32;
         let shear = young / (2.0 + 2.0 * material.poisson_ratio as f32);
         let mut faces = Self {
@@ -73,7 +73,7 @@ impl Faces {
             stiffness: Vec::new(),
             friction,
         };
-        let polygons = state.faces(&portion.root().fracture);
+        let polygons = state.faces(portion.root().fracture());
         for (cut, (corners, count)) in state.cuts().zip(polygons) {
             let nodes = fracture.tets[cut.tet as usize];
             let mut shares = [0.0_f32; 4];

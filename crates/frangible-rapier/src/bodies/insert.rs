@@ -60,7 +60,7 @@ impl BreakableWorld {
         check_pose(rigid.position)?;
         finite("velocity", rigid.linvel)?;
         finite("angular velocity", rigid.angvel)?;
-        let mass = rapier_mass(&body.asset().mass)?;
+        let mass = rapier_mass(&body.asset().mass())?;
         let shape = match self
             .shapes
             .iter()
@@ -73,7 +73,7 @@ impl BreakableWorld {
                 shape
             }
         };
-        let surface = SurfaceProperties::of(&body.asset().material, Striker::EDGE_RADIUS);
+        let surface = SurfaceProperties::of(body.asset().material(), Striker::EDGE_RADIUS);
         surface.validate()?;
         let mut rigid = rigid.additional_mass_properties(mass);
         if body.asset().is_supported() {

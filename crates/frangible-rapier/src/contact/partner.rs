@@ -57,7 +57,7 @@ pub(super) fn striker(
 /// Radius of curvature of a breakable's outer surface nearest to a point of its body frame, m.
 fn curvature_at(body: &Body, point: Vector) -> f32 {
     let triangle = body.nearest_on_surface(point).triangle;
-    body.asset().surface.curvature_radius[triangle as usize].max(Striker::EDGE_RADIUS)
+    body.asset().surface().curvature_radius[triangle as usize].max(Striker::EDGE_RADIUS)
 }
 
 /// Two breakable bodies meet: how the other one vibrates under each contact, for blows that are integrated, and how long it answers, for
@@ -89,7 +89,7 @@ pub(super) fn answer(
             *body.position() * contact.point,
             *body.rotation() * contact.normal,
         );
-        let mut there = Striker::fixed(&itself.asset().material);
+        let mut there = Striker::fixed(itself.asset().material());
         there.inverse_effective_mass = inverse_effective_mass(body, world, normal);
         there.curvature_radius = curvature_at(itself, contact.point);
         there.restitution = contact.striker.restitution;

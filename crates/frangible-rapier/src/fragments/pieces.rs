@@ -87,7 +87,7 @@ impl BreakableWorld {
                 found?.as_ref().filter(large).cloned()
             }
         };
-        let whole = body.asset().mass.mass;
+        let whole = body.asset().mass().mass;
         // Fragments are ordered by their mass.
         let fragments = broken.fracture.fragments.iter().enumerate();
         for (&handle, (number, fragment)) in broken.fragments.iter().zip(fragments) {
@@ -203,8 +203,8 @@ impl BreakableWorld {
 /// Tetrahedra of a body in which cracks can run.
 fn tets_of(body: &Body) -> usize {
     let asset = body.asset();
-    let portion = asset.portion.as_ref();
-    portion.map_or(asset.fracture.tets.len(), |portion| portion.tets().len())
+    let portion = asset.portion();
+    portion.map_or(asset.fracture().tets.len(), |portion| portion.tets().len())
 }
 
 /// A body of its own, with what its first steady load would have to find out.

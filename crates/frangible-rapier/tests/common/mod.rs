@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use frangible::glam::{DMat3, DVec3, Vec3};
 use frangible::internals::asset::{
-    AnalysisMesh, ConvexCell, EmbeddedPoint, Embedding, OuterSurface,
+    AnalysisMesh, AssetParts, ConvexCell, EmbeddedPoint, Embedding, OuterSurface,
 };
 use frangible::internals::modal::ModalBasis;
 use frangible::internals::{MassProperties, TetMesh};
@@ -82,7 +82,7 @@ pub(crate) fn box_asset(half: Vec3, cells: [usize; 3]) -> Arc<Asset> {
         elements: vec![std::array::from_fn(|i| i as u32)],
         barycentric_gradients: vec![[Vec3::ZERO; 4]],
     };
-    Arc::new(Asset {
+    Arc::new(Asset::from_parts(AssetParts {
         name: "box".into(),
         material: Material::preset("glass").unwrap(),
         mass: block_mass(Vec3::ZERO, half),
@@ -97,7 +97,7 @@ pub(crate) fn box_asset(half: Vec3, cells: [usize; 3]) -> Arc<Asset> {
         supported: Vec::new(),
         render: None,
         portion: None,
-    })
+    }))
 }
 
 pub(crate) fn body(asset: &Arc<Asset>) -> Body {

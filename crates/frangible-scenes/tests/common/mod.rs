@@ -65,14 +65,14 @@ pub(crate) fn blow(
 /// The outermost node near the rim at this azimuth, degrees.
 pub(crate) fn rim_point(asset: &Asset, degrees: f32) -> Vec3 {
     let top = asset
-        .fracture
+        .fracture()
         .positions
         .iter()
         .map(|p| p.z)
         .fold(f32::MIN, f32::max);
     let (sin, cos) = degrees.to_radians().sin_cos();
     let radius = asset
-        .fracture
+        .fracture()
         .positions
         .iter()
         .map(|p| p.truncate().length())

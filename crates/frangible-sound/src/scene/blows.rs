@@ -43,10 +43,10 @@ pub fn recorded_blow(
             time_step: report.time_step,
             force: contact.force.clone(),
         });
-    let origin = asset.mass.centre;
+    let origin = asset.mass().centre;
     let crack = |cuts: &Vec<(u32, f64)>| RecordedCrack {
         places: (cuts.iter())
-            .map(|&(tet, _)| asset.root().fracture.centroid(tet as usize).as_dvec3() - origin)
+            .map(|&(tet, _)| asset.root().fracture().centroid(tet as usize).as_dvec3() - origin)
             .map(|place| place.as_vec3())
             .collect(),
         times: cuts.iter().map(|&(_, time)| time).collect(),

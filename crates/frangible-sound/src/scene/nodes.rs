@@ -110,7 +110,7 @@ impl Nodes {
                 } else {
                     Hold::Free
                 };
-                let damping = AudibleDamping::of(&asset.material);
+                let damping = AudibleDamping::of(asset.material());
                 let (sound, heard) = AssetSound::new(body, &damping, hold)?;
                 let (sound, heard) = (Arc::new(sound), Arc::new(heard));
                 let entry = (Arc::clone(asset), Arc::clone(&sound), Arc::clone(&heard));

@@ -258,7 +258,7 @@ mod tests {
         };
         let asset = bake(&spec).expect("a bake");
         let body = Breakable::new(Arc::new(asset)).expect("a kind").body(1);
-        let mass = body.asset().mass.mass;
+        let mass = body.asset().mass().mass;
         let half = Sounding::Piece(glass, 0.5 * mass);
         let grid = |z: f32| {
             let at = |k: usize, side: f32| side * (k as f32 / 16.0 - 0.5);

@@ -65,7 +65,7 @@ pub(crate) fn block_hit(speed: f64) -> Contact {
 /// A steel ball of 130 g falls on the shelf, not far from its free end.
 pub(crate) fn shelf_hit(speed: f64) -> Contact {
     let high = |axis: usize| {
-        let positions = shelf().asset().fracture.positions.iter();
+        let positions = shelf().asset().fracture().positions.iter();
         positions.map(|p| p[axis]).fold(f32::MIN, f32::max)
     };
     let point = Vec3::new(high(0) - 0.03, 0.0, high(2));
@@ -174,13 +174,13 @@ pub(crate) fn bits(outcome: &Outcome) -> Vec<u64> {
 impl Numbers {
     /// A blow on a random place of the surface, from outside, up to 20 m/s, most of them soft.
     pub(crate) fn blow(&mut self, asset: &Asset) -> Contact {
-        let triangle = (self.next() * asset.surface.triangles.len() as f64) as usize;
-        let corner = asset.surface.triangles[triangle][0] as usize;
-        let inward = -asset.surface.normals[triangle][0];
+        let triangle = (self.next() * asset.surface().triangles.len() as f64) as usize;
+        let corner = asset.surface().triangles[triangle][0] as usize;
+        let inward = -asset.surface().normals[triangle][0];
         let tilt = Vec3::from_array(std::array::from_fn(|_| self.next() as f32 - 0.5));
         let speed = 20.0 * self.next().powi(6);
         let striker = steel_ball(0.02 + 0.2 * self.next());
-        let point = asset.fracture.positions[corner];
+        let point = asset.fracture().positions[corner];
         Contact::collision(asset, point, inward + tilt, speed, striker)
     }
 }

@@ -34,7 +34,7 @@ pub(crate) fn bake_all() -> Result<Vec<Kind>, BenchError> {
             ..BakeSpec::new(name, shape, Material::preset(material)?)
         };
         let asset = bake(&spec)?;
-        let lowest = asset.fracture.positions.iter().map(|p| p.z);
+        let lowest = asset.fracture().positions.iter().map(|p| p.z);
         let foot = -lowest.fold(f32::INFINITY, f32::min);
         Ok(Kind {
             breakable: Breakable::new(Arc::new(asset))?,

@@ -70,7 +70,7 @@ impl Landing {
 
     fn answer(self, body: &Body) -> Answer {
         let load = modal_load(body, &[self.contact(body.asset())]);
-        let modes = &body.asset().modes;
+        let modes = body.asset().modes();
         let shape = &load.touches[0].modal_shape;
         let mode = most_excited_mode(body.asset(), shape).unwrap_or(0);
         let duration = |model| contact_duration(body.asset(), &load, model);
@@ -267,14 +267,14 @@ fn cell(rod: &Asset, landing: Landing, answer: &Answer) -> ModeCell {
     let field = mode_on_fracture_mesh(rod, answer.mode);
     let largest = field.largest_displacement().max(f32::MIN_POSITIVE);
     let rotation = landing.rotation();
-    let positions = rod.fracture.positions.iter().zip(&field.displacements);
+    let positions = rod.fracture().positions.iter().zip(&field.displacements);
     let stresses: Vec<f32> = field.stresses.iter().map(von_mises).collect();
     let most = stresses.iter().copied().fold(f32::MIN_POSITIVE, f32::max);
     ModeCell {
         positions: positions
             .map(|(&p, &u)| rotation * (p + u * (DRAWN / largest)))
             .collect(),
-        triangles: rod.surface.triangles.clone(),
+        triangles: rod.surface().triangles.clone(),
         values: stresses.iter().map(|s| s / most).collect(),
         caption: landing.name(),
         note: format!(

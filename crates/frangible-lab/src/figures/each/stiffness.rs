@@ -49,7 +49,7 @@ fn striker(modulus: f64) -> Striker {
 }
 
 fn contact(pig: &Asset, striker: Striker) -> Contact {
-    let flank = pig.fracture.positions.iter().copied();
+    let flank = pig.fracture().positions.iter().copied();
     let point = flank
         .max_by(|a, b| a.x.total_cmp(&b.x))
         .unwrap_or(Vec3::ZERO);
@@ -268,13 +268,13 @@ fn picture(pig: &Asset, outcome: &Outcome, label: &str) -> Result<RgbImage, Figu
         };
         add_pieces(&mut model, &fracture.fragments, 0.22, turned, colours);
     } else {
-        for (triangle, normals) in pig.surface.triangles.iter().zip(&pig.surface.normals) {
-            let corners = triangle.map(|v| turned * pig.fracture.positions[v as usize]);
+        for (triangle, normals) in pig.surface().triangles.iter().zip(&pig.surface().normals) {
+            let corners = triangle.map(|v| turned * pig.fracture().positions[v as usize]);
             model.smooth(OUTSIDE, corners, normals.map(|n| turned * n));
         }
     }
     let points: Vec<Vec3> = pig
-        .fracture
+        .fracture()
         .positions
         .iter()
         .map(|&p| turned * p * 1.25)

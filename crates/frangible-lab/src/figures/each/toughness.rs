@@ -156,8 +156,8 @@ pub(crate) fn pattern(
     let body = Body::new(Arc::clone(slab), 1)?;
     let (_, trace) = impact_traced(&body, std::slice::from_ref(contact), config)?;
     let mut model = Model::default();
-    let mesh = &slab.fracture;
-    for (triangle, normals) in slab.surface.triangles.iter().zip(&slab.surface.normals) {
+    let mesh = slab.fracture();
+    for (triangle, normals) in slab.surface().triangles.iter().zip(&slab.surface().normals) {
         let corners = triangle.map(|v| mesh.positions[v as usize]);
         model.smooth([0.55, 0.72, 0.74, 1.0], corners, *normals);
     }

@@ -80,10 +80,10 @@ struct Faces {
 
 impl Faces {
     fn new(slab: &Asset) -> Self {
-        let mut place = vec![u32::MAX; slab.fracture.positions.len()];
+        let mut place = vec![u32::MAX; slab.fracture().positions.len()];
         let mut nodes = Vec::new();
         let mut triangles = Vec::new();
-        for triangle in &slab.surface.triangles {
+        for triangle in &slab.surface().triangles {
             triangles.push(triangle.map(|v| {
                 if place[v as usize] == u32::MAX {
                     place[v as usize] = nodes.len() as u32;
@@ -97,8 +97,11 @@ impl Faces {
             nodes.iter().map(|&v| field.stresses[v]).collect()
         };
         Self {
-            points: nodes.iter().map(|&v| slab.fracture.positions[v]).collect(),
-            stresses: (0..slab.modes.count()).map(of_mode).collect(),
+            points: nodes
+                .iter()
+                .map(|&v| slab.fracture().positions[v])
+                .collect(),
+            stresses: (0..slab.modes().count()).map(of_mode).collect(),
             triangles,
         }
     }
@@ -234,7 +237,7 @@ fn wave(body: &Body, contact: frangible::Contact, config: &FractureConfig) -> Wa
     config.model = Model::Ours;
     let pulse = pulse(asset, &load, duration, &config);
     Wave {
-        motion: respond(&asset.modes, &asset.material, &load.modal_impulse, &pulse),
+        motion: respond(asset.modes(), asset.material(), &load.modal_impulse, &pulse),
         pulse,
     }
 }

@@ -93,7 +93,7 @@ fn supported(plate: &Plate, edge: f64) -> Result<Asset, BakeError> {
 
 /// The asset with its lowest modes followed and the rest as its residual vector.
 pub(crate) fn following(mut asset: Asset, modes: usize) -> Asset {
-    asset.modes.residual_modes = asset.modes.count() - modes;
+    asset.parts_mut().modes.residual_modes = asset.modes().count() - modes;
     asset
 }
 
@@ -158,7 +158,7 @@ pub(crate) fn places(
     distances: &[f64],
 ) -> Vec<Place> {
     let asset = body.asset();
-    let surface = &asset.surface;
+    let surface = asset.surface();
     let lower: Vec<Place> = surface
         .triangles
         .iter()

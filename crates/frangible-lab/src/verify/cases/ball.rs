@@ -41,7 +41,7 @@ fn compute(progress: &mut dyn FnMut(f64)) -> Result<Findings, BakeError> {
         Check {
             name: "mass".into(),
             reference: GLASS.density * 4.0 / 3.0 * PI * RADIUS.powi(3),
-            value: asset.mass.mass,
+            value: asset.mass().mass,
             tolerance: 0.01,
             unit: "kg",
             source: "4/3 π r³ ρ",

@@ -88,7 +88,7 @@ pub(crate) fn force_on_plate(
     let (mass, radius) = (BALL[0], BALL[1]);
     let striker = strike::Striker {
         mass,
-        stiffness: spring(&plate.material, radius),
+        stiffness: spring(plate.material(), radius),
         speed: 20.0,
     };
     let exact = striker.against(PLATE.dashpot(), f64::INFINITY, 400.0);
@@ -133,7 +133,7 @@ pub(crate) fn restitution_at(
     const SPEED: f64 = 1.0;
     let of = |radius: f64| strike::Striker {
         mass: 7850.0 * 4.0 / 3.0 * PI * radius.powi(3),
-        stiffness: spring(&plate.material, radius),
+        stiffness: spring(plate.material(), radius),
         speed: SPEED,
     };
     let dashpot = PLATE.dashpot();

@@ -26,7 +26,7 @@ pub(super) struct EdgeRow {
 
 pub(super) fn compute(plate: &Asset) -> Result<Vec<EdgeRow>, BakeError> {
     let supported = body(plate.clone())?;
-    let wavelength = wavelength_of(plate.modes.count());
+    let wavelength = wavelength_of(plate.modes().count());
     let mut rows = Vec::new();
     for (name, at) in [
         (

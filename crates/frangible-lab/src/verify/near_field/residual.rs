@@ -83,7 +83,7 @@ pub(super) fn compute() -> Result<Vec<ResidualRow>, BakeError> {
 fn largest(body: &Body, contact: Contact, config: &FractureConfig) -> Result<f64, BakeError> {
     let blow = blow(body, contact, config)?;
     let report = &blow.reports()[0];
-    let mesh = &body.asset().fracture;
+    let mesh = body.asset().fracture();
     let near = |&e: &u32| mesh.centroid(e as usize).distance(report.point) < 0.02;
     let (under, rest): (Vec<u32>, Vec<u32>) = body.weak_tets().iter().partition(|e| near(e));
     let under = under.iter().step_by((under.len() / 150).max(1));
