@@ -3,7 +3,7 @@
 use bevy::asset::io::Reader;
 use bevy::asset::{AssetLoader, LoadContext};
 use bevy::prelude::*;
-use frangible::internals::{AssetFileError, Fields};
+use frangible::internals::AssetFileError;
 use frangible::{Asset as Baked, Breakable as Kind, InputError};
 use thiserror::Error;
 
@@ -17,8 +17,7 @@ impl FrangibleAsset {
     /// # Errors
     /// The asset is invalid.
     pub fn new(baked: Baked) -> Result<Self, InputError> {
-        let fields = Fields::of_material(&baked.material);
-        Ok(Self(Kind::new(baked)?.with_fields(fields)?))
+        Ok(Self(Kind::new(baked)?))
     }
 }
 

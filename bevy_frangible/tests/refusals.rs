@@ -82,7 +82,7 @@ fn numbers_that_make_no_strength_are_named() {
             f.fatigue.as_mut().unwrap().exponent = 0.0;
         }),
     ] {
-        let mut fields = Fields::of_material(&kind.asset().material);
+        let mut fields = Fields::of_material(kind.asset().material());
         spoil(&mut fields);
         let refused = kind.clone().with_fields(fields).err().unwrap().to_string();
         assert!(refused.contains(name), "{refused}");

@@ -4,7 +4,6 @@
 use std::ffi::{CString, c_char};
 
 use frangible::{Asset, Breakable};
-use frangible_js::plain;
 
 use crate::arrays::{Arrays, Whose, solid};
 use crate::entry::{Failure, entry, frangible_status};
@@ -39,7 +38,7 @@ impl Kind {
 }
 
 fn made(asset: Asset) -> Result<frangible_breakable, Failure> {
-    let breakable = plain::kind(asset).map_err(Failure::input)?;
+    let breakable = Breakable::new(asset).map_err(Failure::input)?;
     let id = BREAKABLES.add(Kind::new(breakable));
     Ok(frangible_breakable { id })
 }

@@ -6,10 +6,8 @@ use frangible::internals::outcome::ContactReport;
 use frangible::internals::rigid::{
     Kick, Rigid, fly_through, nearest_first, take_blow, take_energy, take_held,
 };
-use frangible::internals::{Fields, MassProperties, RenderMesh, box_projection};
-use frangible::{
-    Asset, Breakable, Contact, Fracture, Fragment, ImpactReport, InputError, Striker, TriMesh,
-};
+use frangible::internals::{MassProperties, RenderMesh, box_projection};
+use frangible::{Asset, Contact, Fracture, Fragment, ImpactReport, Striker, TriMesh};
 
 /// Numbers of a contact: point, direction of the push (m, body frame), speed of approach (m/s), one over the striker's mass at the contact
 /// (1/kg), its radius of curvature (m), plane-strain modulus (Pa), crushing pressure (Pa), coefficient of restitution; then of a scripted push
@@ -35,15 +33,6 @@ fn vec(numbers: &[f64]) -> Vec3 {
 
 fn double(numbers: &[f64]) -> DVec3 {
     DVec3::new(numbers[0], numbers[1], numbers[2])
-}
-
-/// Makes a kind of body with the scatter of strength of its material.
-///
-/// # Errors
-/// An asset with inconsistent arrays or an invalid number.
-pub fn kind(asset: Asset) -> Result<Breakable, InputError> {
-    let fields = Fields::of_material(asset.material());
-    Breakable::new(asset)?.with_fields(fields)
 }
 
 /// Converts rows of [`CONTACT`] numbers to contacts in the body frame.

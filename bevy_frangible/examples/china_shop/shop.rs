@@ -75,7 +75,7 @@ fn baked(name: &str, shape: Shape) -> Result<(FrangibleAsset, f32), Box<dyn std:
         ..BakeSpec::new(name, shape, Material::preset("porcelain")?)
     };
     let asset = bake(&spec)?;
-    let lowest = asset.fracture.positions.iter().map(|p| p.z);
+    let lowest = asset.fracture().positions.iter().map(|p| p.z);
     let foot = -lowest.fold(f32::INFINITY, f32::min);
     Ok((FrangibleAsset::new(asset)?, foot))
 }

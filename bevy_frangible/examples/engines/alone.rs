@@ -60,7 +60,7 @@ pub fn lost(scene: &Scene, seed: u64) -> Result<Option<f64>, InputError> {
         fly_through(fracture, place, pieces, by);
         ball = [by[0]];
     } else {
-        let mut whole = still(&body.asset().mass, DVec3::ZERO);
+        let mut whole = still(&body.asset().mass(), DVec3::ZERO);
         take_held(&mut whole, &mut ball, &pushes);
     }
     Ok(Some((velocity - ball[0].linear).dot(normal)))

@@ -44,11 +44,11 @@ pub(super) fn give_collider(
     entity.insert_if_new((
         kind,
         Carries::default(),
-        surface(&baked.material),
-        MadeOf(baked.material.clone()),
+        surface(baked.material()),
+        MadeOf(baked.material().clone()),
     ));
     entity.insert((
-        masses(&baked.mass),
+        masses(&baked.mass()),
         before | ActiveCollisionHooks::MODIFY_CONTACTS,
     ));
     match known {

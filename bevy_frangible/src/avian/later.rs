@@ -112,7 +112,7 @@ impl Docket {
             let Ok(body) = bodies.get(blow.body) else {
                 continue;
             };
-            let cost = body.0.asset().embedding.tets.len().max(1);
+            let cost = body.0.asset().embedding().tets.len().max(1);
             if self.cases.iter().any(|case| case.blow.body == blow.body) {
                 later.push_back(blow);
             } else if work == 0 || work.saturating_add(cost) <= budget {

@@ -94,7 +94,7 @@ fn measure(subject: &Subject, kept: usize, counts: &[usize]) -> Result<(), Failu
         );
         for (ball, striker, speed) in balls()? {
             let contact = Contact::strike(at, hit.toward.normalize(), speed, striker);
-            let body = Breakable::new(asset.clone())?.body(1);
+            let body = Breakable::uniform(asset.clone())?.body(1);
             let touched = modal_load(&body, [&contact]).touches[0].contact.point;
             let places = places(&asset, touched, root);
             let truth = peaks(&asset, &contact, kept, true, &places)?;
@@ -193,7 +193,7 @@ fn peaks(
     let mut asset = asset.clone();
     let kept = asset.modes().count();
     asset.parts_mut().modes.residual_modes = kept - followed;
-    let body = Breakable::new(asset)?.body(1);
+    let body = Breakable::uniform(asset)?.body(1);
     let mut config = FractureConfig::default();
     (config.residual, config.near_field) = (residual, None);
     let blow = Blow::new(&body, std::slice::from_ref(contact), &config)?.ok_or("no blow")?;

@@ -33,7 +33,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let start = Instant::now();
         let asset = bake(&spec)?;
         let baked = start.elapsed().as_secs_f64();
-        let kind = Breakable::new(asset)?;
+        let kind = Breakable::uniform(asset)?;
         let (tets, modes) = (kind.asset().fracture().tets.len(), spec.modes);
         let mut times = breaks(&kind)?;
         times.sort_by(f64::total_cmp);

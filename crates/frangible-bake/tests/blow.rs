@@ -52,7 +52,7 @@ fn glass() -> &'static Asset {
 fn following(asset: &Asset, modes: usize) -> Body {
     let mut asset = asset.clone();
     asset.parts_mut().modes.residual_modes = asset.modes().count() - modes;
-    Breakable::new(asset).unwrap().body(1)
+    Breakable::uniform(asset).unwrap().body(1)
 }
 
 fn config(residual: bool, near_field: Option<PlateTheory>) -> FractureConfig {
@@ -286,7 +286,7 @@ fn several_contacts_at_once_keep_energy_and_momentum() {
     asset.parts_mut().material.mass_damping = 0.0;
     asset.parts_mut().material.crushing_pressure = f64::INFINITY;
     let mass = asset.mass();
-    let body = Breakable::new(asset).unwrap().body(1);
+    let body = Breakable::uniform(asset).unwrap().body(1);
     let steel = Material::preset("steel").unwrap();
     let balls = [(0.05, 0.012, 4.0), (0.02, 0.01, 9.0)];
     let places = [
@@ -346,7 +346,7 @@ fn several_contacts_at_once_keep_energy_and_momentum() {
 #[test]
 fn no_input_makes_nonsense() {
     let asset = baked(Shape::plate(0.1, 0.1, 0.002), material("glass"), 30, 800.0);
-    let body = Breakable::new(asset).unwrap().body(1);
+    let body = Breakable::uniform(asset).unwrap().body(1);
     let config = FractureConfig::default();
     let steel = Material::preset("steel").unwrap();
     let top = Vec3::new(0.0, 0.0, 0.001);
@@ -491,7 +491,7 @@ fn a_wall_of_any_thickness_gives_no_nonsense() {
     let with = |change: &dyn Fn(&mut Asset)| {
         let mut asset = asset.clone();
         change(&mut asset);
-        Breakable::new(Arc::new(asset))
+        Breakable::uniform(Arc::new(asset))
     };
     for bad in [0.0, -1.0, f32::NAN] {
         assert!(
@@ -540,7 +540,7 @@ fn a_wall_of_any_thickness_gives_no_nonsense() {
 
 #[test]
 fn a_body_that_strikes_at_four_points_brings_its_energy_once() {
-    let body = Breakable::new(brick().clone()).unwrap().body(1);
+    let body = Breakable::uniform(brick().clone()).unwrap().body(1);
     let (mass, inertia, speed) = (1.5_f32, 0.02_f32, 2.0_f32);
     let contacts = |share: bool| {
         [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)].map(|(a, b)| {

@@ -46,7 +46,7 @@ fn jack() -> Asset {
 
 /// The largest tension of a blow at places about the root of the arm along (1, 1, 1) and on the hub, Pa.
 fn peak(asset: &Asset, contact: &Contact) -> f32 {
-    let body = Breakable::new(asset.clone()).unwrap().body(1);
+    let body = Breakable::uniform(asset.clone()).unwrap().body(1);
     let config = FractureConfig::default();
     let blow = Blow::new(&body, std::slice::from_ref(contact), &config)
         .unwrap()

@@ -145,7 +145,7 @@ fn check(mesh: &InputMesh, tets: usize) -> [f64; 2] {
         .copied()
         .max_by(|a, b| a.y.total_cmp(&b.y))
         .unwrap();
-    let breakable = Breakable::new(asset).unwrap();
+    let breakable = Breakable::uniform(asset).unwrap();
     let config = FractureConfig::default();
     // Harder and harder until it breaks.
     let outcomes = (0..30).map(|k| {

@@ -90,7 +90,7 @@ fn weak_at(asset: &Arc<Asset>, place: Vec3, seed: u64) -> Body {
     fields.of_tet = of_tet;
     let mut asset = Asset::clone(asset);
     asset.parts_mut().material.branching_constant = f64::INFINITY;
-    let kind = Breakable::new(asset).unwrap();
+    let kind = Breakable::uniform(asset).unwrap();
     let body = kind.with_fields(fields).unwrap().body(seed);
     assert_eq!(body.weak_tets().len(), 1);
     body
@@ -274,7 +274,7 @@ fn the_mesh_does_not_tell_in_which_directions_a_pane_breaks() {
         spec.fracture = Some(spec.shape.size_for(10_000.0).unwrap());
         (spec.seed, spec.modes) = (mesh, 40);
         let asset = Arc::new(bake(&spec).unwrap());
-        let kind = Breakable::new(Arc::clone(&asset)).unwrap();
+        let kind = Breakable::uniform(Arc::clone(&asset)).unwrap();
         let kind = kind
             .with_fields(Fields::of_material(asset.material()))
             .unwrap();

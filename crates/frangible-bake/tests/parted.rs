@@ -35,7 +35,7 @@ fn bar(length: f64, modes: usize, supports: Vec<Support>) -> Asset {
 }
 
 fn body(asset: Asset) -> Body {
-    Breakable::new(Arc::new(asset)).unwrap().body(1)
+    Breakable::uniform(Arc::new(asset)).unwrap().body(1)
 }
 
 /// Pieces by the number that `of` gives each place, the largest first.

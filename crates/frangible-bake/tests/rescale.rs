@@ -2,7 +2,7 @@
 
 use frangible::glam::{DVec3, Vec3};
 use frangible::internals::asset::SaveOptions;
-use frangible::{Asset, Body, Contact, FractureConfig, Material, Outcome, Striker, impact};
+use frangible::{Asset, Breakable, Contact, FractureConfig, Material, Outcome, Striker, impact};
 use frangible_bake::frangible_mesh::InputMesh;
 use frangible_bake::{
     BakeSpec, ImportOptions, MeshSize, Region, RescaleError, Shape, Support, bake, import_mesh,
@@ -275,7 +275,7 @@ fn hit(asset: &Asset, size: f32) -> Outcome {
         impulse: 6.0 * size.powi(3),
         ..Contact::strike(point, -Vec3::Z, 12.0, striker)
     };
-    let body = Body::new(asset.clone().into(), 3).unwrap();
+    let body = Breakable::uniform(asset.clone()).unwrap().body(3);
     impact(
         &body,
         std::slice::from_ref(&contact),

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use frangible::glam::Vec3;
 use frangible::internals::stress::Skin;
 use frangible::internals::{Force, rest};
-use frangible::{Asset, Body, FractureConfig, Material};
+use frangible::{Asset, Breakable, FractureConfig, Material};
 use frangible_bake::{BakeSpec, MeshSize, Region, Shape, Support, bake};
 
 const SIZE: [f64; 3] = [0.2, 0.1, 0.006];
@@ -66,7 +66,7 @@ fn peak(asset: &Asset, config: &FractureConfig) -> f64 {
     let wanted = 1e-5;
     let shape = -0.5 * (0.1_f64 * 0.1 + 0.23 * 0.003 * 0.003);
     let force = Vec3::Z * (wanted * asset.modes().eigenvalues[0] / shape) as f32;
-    let body = Body::new(Arc::new(asset.clone()), 1).unwrap();
+    let body = Breakable::uniform(Arc::new(asset.clone())).unwrap().body(1);
     let forces = [Force { point, force }];
     let report = rest(&body, &forces, Vec3::ZERO, config)
         .unwrap()
@@ -107,7 +107,7 @@ fn a_bent_plate_of_one_layer_has_the_stress_of_its_skin() {
 fn no_bound_is_below_the_stress_of_the_skin() {
     for noise in [0.0, 0.5, -2.0] {
         let asset = bent(plate(1), noise);
-        let body = Body::new(Arc::new(asset.clone()), 1).unwrap();
+        let body = Breakable::uniform(Arc::new(asset.clone())).unwrap().body(1);
         let force = [Force {
             point: Vec3::new(0.1, 0.0, 0.0),
             force: Vec3::Z * 1e3,

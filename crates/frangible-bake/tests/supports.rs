@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use crate::common::{assert_near, held_modes};
 use frangible::glam::{DVec3, Vec3};
-use frangible::{Asset, Body, Contact, FractureConfig, Material, Outcome, Striker, impact};
+use frangible::{Asset, Breakable, Contact, FractureConfig, Material, Outcome, Striker, impact};
 use frangible_bake::eigen::{Constraints, Modes, remaining_motions};
 use frangible_bake::fem::{
     Cover, Elasticity, Elements, QuadraticMesh, System, assemble, assemble_supported_cover,
@@ -307,7 +307,7 @@ fn a_shelf_that_breaks_leaves_a_piece_in_the_wall() {
     let asset = bake(&spec).unwrap();
     let read = Asset::from_bytes(&asset.to_bytes()).unwrap();
     assert_eq!(read.supported(), asset.supported());
-    let body = Body::new(read.into(), 1).unwrap();
+    let body = Breakable::uniform(read).unwrap().body(1);
     let striker = Striker::rigid()
         .with_contact_modulus(2.3e11)
         .with_effective_mass(2.0)

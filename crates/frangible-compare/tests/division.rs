@@ -21,7 +21,7 @@ fn labels_that_cannot_be_used_are_refused() {
 
 #[test]
 fn borders_add_up_to_the_faces_between_the_pieces() {
-    let body = Breakable::new(plate()).expect("a sound asset").body(1);
+    let body = Breakable::uniform(plate()).expect("a sound asset").body(1);
     let mesh = body.asset().fracture();
     // Quarters, by the signs of x and y.
     let quarter = |v: usize| {

@@ -51,7 +51,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let asset = bake(&spec)?;
     eprintln!("{} tetrahedra", asset.fracture().tets.len());
-    let kind = Breakable::new(Arc::new(asset))?;
+    let kind = Breakable::uniform(Arc::new(asset))?;
     let mut config = WorldConfig::default();
     config.breaking = Breaking::AfterStep {
         budget: 20_000,

@@ -26,7 +26,7 @@ fn pane() -> Body {
         )
     };
     let asset = bake(&spec).unwrap();
-    Breakable::new(asset).unwrap().body(1)
+    Breakable::uniform(asset).unwrap().body(1)
 }
 
 #[test]
@@ -74,7 +74,7 @@ fn vibration_holds_the_work_that_was_done_on_it() {
     material.stiffness_damping = 0.0;
     material.mass_damping = 0.0;
     let asset = (**pane().asset()).clone();
-    let body = Breakable::new(frangible::Asset::from_parts(AssetParts {
+    let body = Breakable::uniform(frangible::Asset::from_parts(AssetParts {
         material,
         ..asset.into_parts()
     }))

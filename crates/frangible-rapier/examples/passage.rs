@@ -7,10 +7,10 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 use frangible::glam::{DMat3, DVec3, Vec3};
+use frangible::internals::MassProperties;
 use frangible::internals::rigid::{
     Kick, Rigid, fly_through, nearest_first, take_blow, take_energy, take_held,
 };
-use frangible::internals::{Fields, MassProperties};
 use frangible::{
     Asset, Breakable, Contact, FractureConfig, InputError, Material, Outcome, Striker, impact,
 };
@@ -42,10 +42,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let seconds: f32 = words.next().map_or(Ok(0.25), |word| word.parse())?;
     let bodies = concat!(env!("CARGO_MANIFEST_DIR"), "/../frangible/tests/bodies");
     let pane = Asset::load(format!("{bodies}/pane.frangible"))?;
-    let fields = Fields::of_material(pane.material());
     let steel = Material::preset("steel")?;
     let throw = Throw {
-        pane: Breakable::new(Arc::new(pane))?.with_fields(fields)?,
+        pane: Breakable::new(Arc::new(pane))?,
         mass: steel.density * 4.0 / 3.0 * PI * f64::from(RADIUS).powi(3),
         steel,
         speed,

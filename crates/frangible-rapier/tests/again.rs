@@ -48,7 +48,7 @@ fn fall(method: Option<Method>, change: impl Fn(&mut WorldConfig)) -> (Vec<Break
         (pieces.elements, pieces.modes) = (Some(150), 20);
         world.set_piece_model(Some(Arc::new(pieces)));
     }
-    let body = Breakable::new(Arc::clone(pane()))
+    let body = Breakable::uniform(Arc::clone(pane()))
         .unwrap()
         .with_fields(Fields::default())
         .unwrap()
@@ -167,7 +167,7 @@ fn cracked(seed: u64) -> Option<f64> {
     };
     let mut fields = Fields::default();
     fields.of_tet = (0..mesh.tets.len()).map(factors).collect();
-    let kind = Breakable::new(Arc::clone(pane())).unwrap();
+    let kind = Breakable::uniform(Arc::clone(pane())).unwrap();
     let body = kind.with_fields(fields).unwrap().body(seed);
     let intact = body.asset().modes().frequency(0);
     let handle = world

@@ -102,7 +102,7 @@ fn masses_sizes_and_surfaces_must_make_sense() {
 
     let mut asset = (*box_asset(HALF, [1, 1, 1])).clone();
     asset.parts_mut().mass.mass = f64::NAN;
-    assert!(frangible::Breakable::new(asset).is_err());
+    assert!(frangible::Breakable::uniform(asset).is_err());
 }
 
 #[test]

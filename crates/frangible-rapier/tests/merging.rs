@@ -485,7 +485,7 @@ fn fallen_pane() -> (BreakableWorld, Vec<RigidBodyHandle>) {
     world.set_piece_model(Some(Arc::new(Pieces::new(Method::ParentModes))));
     // On its edge.
     let place = Pose::new(Vector::new(0.0, 1.0, 0.0), Vector::new(0.25, 0.0, 0.0));
-    let kind = Breakable::new(Arc::clone(pane())).unwrap();
+    let kind = Breakable::uniform(Arc::clone(pane())).unwrap();
     let fast = Vector::new(0.0, -4.0, 0.0);
     world
         .insert_breakable(kind.body(1), place, fast, Vector::ZERO)

@@ -91,7 +91,7 @@ fn lost(pane: &Breakable, seed: u64, speed: f32, rate: f32) -> f64 {
 
 #[test]
 fn a_ball_loses_the_same_whatever_the_length_of_a_step() {
-    let pane = Breakable::new(Arc::clone(pane())).unwrap();
+    let pane = Breakable::uniform(Arc::clone(pane())).unwrap();
     for speed in [8.0, 12.0, 20.0, 30.0] {
         for seed in 0..3 {
             let losses = [60.0, 120.0, 240.0].map(|rate| lost(&pane, seed, speed, rate));

@@ -271,7 +271,7 @@ fn holds_for(share: f32, tires: bool, most: f64) -> Option<f64> {
     let (half, mass) = (0.015, 10.0);
     let mut fields = Fields::default();
     fields.fatigue = Preset::named("glass").unwrap().fatigue.filter(|_| tires);
-    let kind = Breakable::new(shelf().clone()).unwrap();
+    let kind = Breakable::uniform(shelf().clone()).unwrap();
     let glass = kind.with_fields(fields).unwrap().body(1);
     let newton = share * predicted(&glass, half, 0.005);
     let mut world = heavy_world(true);
@@ -313,7 +313,7 @@ fn sleeper_breaks_at(tires: bool) -> Option<f64> {
         .unwrap();
     let mut fields = Fields::default();
     fields.fatigue = Preset::named("glass").unwrap().fatigue.filter(|_| tires);
-    let kind = Breakable::new(box_asset(half, [1, 1, 1])).unwrap();
+    let kind = Breakable::uniform(box_asset(half, [1, 1, 1])).unwrap();
     let block = kind.with_fields(fields).unwrap().body(1);
     let start = at(0.0, 0.05, 0.0);
     let block = world

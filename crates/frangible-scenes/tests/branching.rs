@@ -8,7 +8,7 @@ use frangible::{Asset, Breakable, FractureConfig, ImpactReport, impact};
 
 /// A blow in the middle of a pane whose strength scatters as glass does.
 fn struck(asset: &Arc<Asset>, speed: f64, seed: u64, config: &FractureConfig) -> ImpactReport {
-    let kind = Breakable::new(Arc::clone(asset)).unwrap();
+    let kind = Breakable::uniform(Arc::clone(asset)).unwrap();
     let fields = Fields::of_material(asset.material());
     let body = kind.with_fields(fields).unwrap().body(seed);
     let outcome = impact(&body, &[pane_hit(0.0, 0.0, speed)], config).unwrap();

@@ -12,7 +12,7 @@ use frangible_bake::weakness::{self, Patch, Zone};
 use frangible_scenes::{bake, scene};
 
 fn kind(asset: &Arc<Asset>, fields: Fields) -> Breakable {
-    Breakable::new(Arc::clone(asset))
+    Breakable::uniform(Arc::clone(asset))
         .unwrap()
         .with_fields(fields)
         .unwrap()
@@ -51,8 +51,14 @@ fn the_same_factor_everywhere_is_another_material() {
     other.parts_mut().material.fracture_energy *= 0.25;
     other.parts_mut().material.weak_point_density *= 2.0;
     let other = kind(&Arc::new(other), Fields::default());
-    let painted = kind(pane(), Fields::from_function(pane(), |_| factors));
-    let ones = kind(pane(), Fields::from_function(pane(), |_| Factors::ONE));
+    let painted = kind(
+        pane(),
+        Fields::from_function(pane(), |_| factors).with_weibull_modulus(0.0),
+    );
+    let ones = kind(
+        pane(),
+        Fields::from_function(pane(), |_| Factors::ONE).with_weibull_modulus(0.0),
+    );
     let plain = kind(pane(), Fields::default());
     for (seed, speed) in [(1, 0.3), (2, 2.0), (3, 6.0), (4, 12.0)] {
         let hit = [pane_hit(0.01, 0.02, speed)];
@@ -81,7 +87,7 @@ fn no_crack_starts_where_there_are_no_weak_points() {
     let unforked = Arc::new(unforked);
     let kind = kind(
         &unforked,
-        weakness::from_patches(&unforked, &[patch]).unwrap(),
+        weakness::patched(Fields::default(), &unforked, &[patch]).unwrap(),
     );
     let config = FractureConfig::default();
     for seed in 1..=4 {
@@ -204,7 +210,7 @@ fn paint_on_a_surface_reaches_the_inside_from_the_nearest_place() {
 #[test]
 fn fields_that_cannot_be_used_are_refused() {
     let refused = |fields: Fields, word: &str| {
-        let kind = Breakable::new(Arc::clone(pane())).unwrap();
+        let kind = Breakable::uniform(Arc::clone(pane())).unwrap();
         let message = kind.with_fields(fields).unwrap_err().to_string();
         assert!(message.contains(word), "{message}");
     };
@@ -247,7 +253,10 @@ fn scored(strength: f32) -> Breakable {
         Vec3::new(0.04 + HALF_WIDTH, 1.0, 1.0),
     ]);
     let patches = [Patch::of_strength(strip, strength)];
-    kind(pane(), weakness::from_patches(pane(), &patches).unwrap())
+    kind(
+        pane(),
+        weakness::patched(Fields::default(), pane(), &patches).unwrap(),
+    )
 }
 
 /// Share of the cut tetrahedra that lie in the strip.
@@ -286,7 +295,10 @@ fn the_chocolate_breaks_between_its_squares() {
     scene.bodies[0].modes = 40;
     let asset = bake(&scene).unwrap()[0].asset.clone();
     let grooves = &scene.bodies[0].weakness;
-    let scored = kind(&asset, weakness::from_patches(&asset, grooves).unwrap());
+    let scored = kind(
+        &asset,
+        weakness::patched(Fields::default(), &asset, grooves).unwrap(),
+    );
     let plain = kind(&asset, Fields::default());
     let config = FractureConfig::default();
     // A blow at a corner breaks the scored bar more easily.

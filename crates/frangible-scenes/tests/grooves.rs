@@ -44,7 +44,7 @@ fn areas(asset: &Asset, grooves: &[Patch], trace: &CrackTrace) -> [f32; 2] {
 }
 
 fn share(asset: &Arc<Asset>, fields: Fields, grooves: &[Patch], hit: Contact) -> f32 {
-    let kind = Breakable::new(Arc::clone(asset)).unwrap();
+    let kind = Breakable::uniform(Arc::clone(asset)).unwrap();
     let kind = kind.with_fields(fields).unwrap();
     let config = FractureConfig::default();
     let mut sums = [0.0; 2];
@@ -97,7 +97,7 @@ fn a_scored_bar_breaks_along_its_grooves() {
             blow(&asset, middle, Vec3::NEG_Z, 4.0, steel_ball(0.05)),
         ),
     ] {
-        let scored = weakness::from_patches(&asset, grooves).unwrap();
+        let scored = weakness::patched(Fields::default(), &asset, grooves).unwrap();
         let with = share(&asset, scored, grooves, hit.clone());
         let without = share(&asset, Fields::default(), grooves, hit);
         println!("{what}: {with:.3} of the area in grooves, {without:.3} without scores");

@@ -128,8 +128,10 @@ fn cracked_along(kind: &Breakable, seed: u64) -> f64 {
 }
 
 fn kind(asset: &Arc<Asset>, scene: &Scene) -> Breakable {
-    let fields = weakness::from_paint(asset, &scene.bodies[0].paint).unwrap();
-    let kind = Breakable::new(Arc::clone(asset)).unwrap();
+    let fields = weakness::from_paint(asset, &scene.bodies[0].paint)
+        .unwrap()
+        .with_weibull_modulus(0.0);
+    let kind = Breakable::uniform(Arc::clone(asset)).unwrap();
     kind.with_fields(fields).unwrap()
 }
 

@@ -9,7 +9,7 @@ use crate::common::{block, blow, pane, steel_ball, stone_floor};
 use frangible::glam::{DMat3, Mat3, Quat, Vec3};
 use frangible::internals::asset::{AnalysisMesh, OuterSurface};
 use frangible::internals::{TetMesh, impact_traced};
-use frangible::{Asset, Body, Contact, FractureConfig};
+use frangible::{Asset, Breakable, Contact, FractureConfig};
 
 /// The asset in a frame turned by q.
 fn turned(asset: &Asset, q: Quat) -> Asset {
@@ -90,7 +90,7 @@ fn a_body_turned_with_its_blow_breaks_the_same_way() {
             let contact = blow(&asset, at, toward, 4.0 + 2.0 * k as f64, striker);
             let config = FractureConfig::default();
             let run = |asset: Asset, contact: Contact| {
-                let body = Body::new(Arc::new(asset), k).unwrap();
+                let body = Breakable::uniform(Arc::new(asset)).unwrap().body(k);
                 impact_traced(&body, std::slice::from_ref(&contact), &config)
                     .unwrap()
                     .1

@@ -29,7 +29,7 @@ fn block() -> (Arc<Asset>, f64) {
 #[test]
 fn a_block_that_is_cracked_through_comes_apart() {
     let (asset, section) = block();
-    let kind = Breakable::new(Arc::clone(&asset)).unwrap();
+    let kind = Breakable::uniform(Arc::clone(&asset)).unwrap();
     let kind = kind
         .with_fields(Fields::of_material(asset.material()))
         .unwrap();

@@ -369,7 +369,7 @@ fn equivalent_points_of_the_rim_break_alike() {
 
 #[test]
 fn a_fast_ball_cuts_a_plug_out_and_keeps_most_of_its_speed() {
-    let kind = Breakable::new(Arc::clone(pane())).unwrap();
+    let kind = Breakable::uniform(Arc::clone(pane())).unwrap();
     let hit = [pane_hit(0.0, 0.0, 40.0)];
     let config = FractureConfig::default();
     let outcome = impact(&kind.body(1), &hit, &config).unwrap();

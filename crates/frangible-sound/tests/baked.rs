@@ -21,7 +21,7 @@ fn baked(shape: Shape, material: Material) -> (AssetSound, Body) {
         ..BakeSpec::for_games("body", shape, material).expect("a shape")
     };
     let asset = bake(&spec).expect("a bake");
-    let kind = Breakable::new(Arc::new(asset)).expect("a kind");
+    let kind = Breakable::uniform(Arc::new(asset)).expect("a kind");
     AssetSound::new(&kind.body(1), &damping, Hold::Free).expect("a sound")
 }
 

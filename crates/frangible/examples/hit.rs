@@ -84,7 +84,7 @@ fn pieces(path: &str, folder: &Path, runs: usize, wanted: &[usize]) -> Result<()
 }
 
 fn ready(path: &str) -> Result<Body, Box<dyn Error>> {
-    Ok(Breakable::new(Asset::load(path)?)?.body(SEED))
+    Ok(Breakable::uniform(Asset::load(path)?)?.body(SEED))
 }
 
 /// Processor time of this thread where the system tells it (Linux), so that other work on the machine counts less; else

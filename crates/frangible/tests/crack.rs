@@ -68,7 +68,7 @@ fn cracks_spend_no_more_than_the_blow_brought() {
 fn what_no_motion_can_pay_does_not_crack() {
     let mut asset = (**pane().asset()).clone();
     asset.parts_mut().material.fracture_energy *= 1e6;
-    let kind = Breakable::new(asset).unwrap();
+    let kind = Breakable::uniform(asset).unwrap();
     for seed in 1..=3 {
         let hit = pane_hit(0.0, 0.0, 20.0);
         let outcome = strike(&kind, seed, hit, &FractureConfig::default());

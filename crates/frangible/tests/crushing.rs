@@ -12,7 +12,7 @@ fn brick(pressure: f64) -> Body {
     asset.parts_mut().material.stiffness_damping = 0.0;
     asset.parts_mut().material.mass_damping = 0.0;
     asset.parts_mut().material.crushing_pressure = pressure;
-    Breakable::new(asset).unwrap().body(1)
+    Breakable::uniform(asset).unwrap().body(1)
 }
 
 /// A steel ball of 200 g falls flat on the brick.
@@ -88,7 +88,7 @@ fn pressures_that_are_none_are_refused() {
     let mut asset = block().asset().as_ref().clone();
     for wrong in [0.0, -1.0, f64::NAN] {
         asset.parts_mut().material.crushing_pressure = wrong;
-        let refused = Breakable::new(asset.clone()).unwrap_err().to_string();
+        let refused = Breakable::uniform(asset.clone()).unwrap_err().to_string();
         assert!(refused.contains("crushing pressure"), "{refused}");
         let body = brick(1e8);
         let mut contact = hit(&body, 1.0);

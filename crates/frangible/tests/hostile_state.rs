@@ -17,7 +17,7 @@ fn kind() -> Breakable {
         elements: 3,
         modes: 2,
     });
-    Breakable::new(asset).unwrap()
+    Breakable::uniform(asset).unwrap()
 }
 
 /// A state whose cracks cut these tetrahedra, with numbers that follow from `k`.

@@ -128,7 +128,7 @@ fn a_body_without_modes_holds() {
     asset.parts_mut().modes.peak_stress.clear();
     asset.parts_mut().modes.residual_modes = 0;
     *asset.parts_mut().bounds = StressBounds::default();
-    let body = Breakable::new(asset).unwrap().body(1);
+    let body = Breakable::uniform(asset).unwrap().body(1);
     let pulse = Blast {
         origin: Vec3::Z,
         impulse: 200.0,

@@ -33,7 +33,7 @@ fn undamped(kind: &Breakable) -> Breakable {
     let mut asset: Asset = Asset::clone(kind.asset());
     let material = asset.parts_mut().material;
     (material.stiffness_damping, material.mass_damping) = (0.0, 0.0);
-    Breakable::new(asset).unwrap()
+    Breakable::uniform(asset).unwrap()
 }
 
 /// Places of the three bodies: on a wall, at a corner, on a face, near a free end.
@@ -149,7 +149,7 @@ fn a_stiff_and_heavy_body_strikes_as_one_that_cannot_move() {
         // λ ∝ E/ρ stays as it is, and shapes go with 1/√ρ.
         let rows = asset.parts_mut().modes.shapes.iter_mut();
         rows.for_each(|x| *x /= f32::sqrt(stiffness));
-        let striker = Breakable::new(asset).unwrap().body(2);
+        let striker = Breakable::uniform(asset).unwrap().body(2);
         let mut contact = met(&body, here, &striker, there, 5.0);
         contact.striker.inverse_effective_mass = 0.0;
         let found = blow(contact);

@@ -104,7 +104,7 @@ fn run(
     };
     let mut fields = Fields::default();
     fields.of_tet = of_tet;
-    let kind = Breakable::new(Arc::clone(asset))
+    let kind = Breakable::uniform(Arc::clone(asset))
         .and_then(|kind| kind.with_fields(fields))
         .expect("a pane");
     let body = kind.body(1);

@@ -123,7 +123,7 @@ impl Paint {
 pub fn from_paint(asset: &Asset, paint: &[Paint]) -> Result<Fields, InputError> {
     paint.iter().try_for_each(Paint::check)?;
     if paint.is_empty() {
-        return Ok(Fields::default());
+        return Ok(Fields::of_material(asset.material()));
     }
     let drawn = asset.render();
     let Some(drawn) = drawn.filter(|r| !r.triangles.is_empty() && !r.colors.is_empty()) else {

@@ -19,7 +19,7 @@ pub(crate) fn breakable(shape: Shape, material: &str, tets: f64, modes: usize) -
         ..BakeSpec::new("body", shape, Material::preset(material).expect("a preset"))
     };
     let asset = bake(&spec).expect("a baked body");
-    Breakable::new(Arc::new(asset)).expect("a sound asset")
+    Breakable::uniform(Arc::new(asset)).expect("a sound asset")
 }
 
 /// All of a body as a portion.

@@ -47,7 +47,7 @@ pub(crate) struct Case {
 impl Case {
     pub(crate) fn new(asset: &Arc<Asset>, contact: Contact) -> Self {
         Self {
-            body: Breakable::new(Arc::clone(asset))
+            body: Breakable::uniform(Arc::clone(asset))
                 .expect("a sound asset")
                 .body(1),
             contacts: vec![contact],

@@ -31,7 +31,7 @@ fn kind(name: &str, shape: Shape, material: &str, analysis: f64) -> Breakable {
         fracture: Some(shape.size_for(6000.0).unwrap()),
         ..BakeSpec::new(name, shape, material)
     };
-    Breakable::new(bake(&spec).unwrap()).unwrap()
+    Breakable::uniform(bake(&spec).unwrap()).unwrap()
 }
 
 /// Drinking glass, pane of 0.3 m, brick.
@@ -134,6 +134,7 @@ pub(crate) fn weak_rim(kind: &Breakable) -> Breakable {
     let fields = frangible::internals::Fields::from_function(asset, |p| {
         let rim = p.abs().truncate().cmpgt(half.truncate() - 0.003).any();
         frangible::internals::Factors::of_strength(if rim { 1.0 } else { 30.0 })
-    });
+    })
+    .with_weibull_modulus(0.0);
     kind.clone().with_fields(fields).unwrap()
 }

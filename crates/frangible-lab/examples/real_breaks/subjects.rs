@@ -152,7 +152,7 @@ fn ice_ball(speed: f32) -> Result<Subject, Box<dyn Error>> {
     ));
     Ok(Subject {
         title: format!("ball of ice, 60 mm wide: thrown on stone at {speed} m/s"),
-        kind: Breakable::new(Arc::new(asset))?,
+        kind: Breakable::uniform(Arc::new(asset))?,
         contacts: vec![contact],
         config: FractureConfig::default(),
         features,

@@ -121,7 +121,7 @@ pub struct Findings {
 pub fn measure(cache: &Cache, progress: &mut dyn FnMut(&str, f64)) -> Result<Findings, BenchError> {
     let geometry = || Ok((solid("piggy_bank", PIG_GROWN, PIG_TETS)?, None, None));
     let baked = cache.body("porcelain-pig", MODES, "porcelain", geometry, progress)?;
-    let body = Breakable::new(baked.asset)?.body(1);
+    let body = Breakable::uniform(baked.asset)?.body(1);
     let config = FractureConfig::default();
     progress("game-like contacts", 0.0);
     let game = Source::new(&body, GAME_SPEEDS, 1)?.take(GAME);

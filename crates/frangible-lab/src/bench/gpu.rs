@@ -143,7 +143,7 @@ pub fn measure(
             followed: Some(MODES),
             ..BakeSpec::new(name, shape, Material::preset("glass")?)
         };
-        let kind = Breakable::new(bake(&spec)?)?;
+        let kind = Breakable::uniform(bake(&spec)?)?;
         bodies.push(of_body(
             name,
             &kind,
@@ -187,7 +187,7 @@ fn everywhere(
         fracture,
         ..BakeSpec::new(name, shape, material)
     };
-    let kind = Breakable::new(bake(&spec)?)?;
+    let kind = Breakable::uniform(bake(&spec)?)?;
     let body = kind.body(0);
     let contacts = [subject.contact(kind.asset(), 1.0)?];
     let mut config = FractureConfig::with_given_impulses();

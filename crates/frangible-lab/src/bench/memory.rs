@@ -75,7 +75,7 @@ pub fn measure(
     let asset = count(&mut || loaded = Some(Asset::load(&path)));
     let mut loaded = loaded.transpose()?;
     let mut kind = None;
-    let prepared = count(&mut || kind = loaded.take().map(Breakable::new));
+    let prepared = count(&mut || kind = loaded.take().map(Breakable::uniform));
     let Some(kind) = kind.transpose()? else {
         return Err(BenchError::NotAsMeant(format!(
             "{} was not loaded",

@@ -80,7 +80,7 @@ impl Bench {
     /// # Errors
     /// An asset that the run time refuses.
     pub fn new(asset: Asset) -> Result<Self, BenchError> {
-        let body = Breakable::new(asset)?.body(1);
+        let body = Breakable::uniform(asset)?.body(1);
         let ours = FractureConfig::with_given_impulses();
         let paper = FractureConfig::as_in_the_paper();
         let hit = |speed: f64| {

@@ -8,7 +8,7 @@ use frangible::internals::asset::{AnalysisMesh, AssetParts, ConvexCell, Embedded
 use frangible::internals::modal::ModalBasis;
 use frangible::internals::stress::StressBounds;
 use frangible::internals::{MassProperties, TetMesh};
-use frangible::{Asset, Body, Contact, InputError, Material, Striker};
+use frangible::{Asset, Body, Breakable, Contact, InputError, Material, Striker};
 use frangible_bake::eigen::lowest_modes;
 use frangible_bake::fem::{Elasticity, Elements, QuadraticMesh, assemble};
 use frangible_bake::surface::{CREASE, outer_surface};
@@ -250,7 +250,7 @@ pub fn baked_cases() -> Result<Vec<Case>, BakeError> {
 pub fn impact(case: &Case, number: u64) -> Result<(Body, Vec<Contact>), InputError> {
     let mut rng = ChaCha8Rng::seed_from_u64(number);
     let mut random = move || (rng.next_u64() >> 11) as f64 * 0.5_f64.powi(53);
-    let body = Body::new(case.asset.clone(), number)?;
+    let body = Breakable::uniform(case.asset.clone())?.body(number);
     let asset = &case.asset;
     let count = if random() < 0.75 { 1 } else { 2 };
     let mut contacts = Vec::new();

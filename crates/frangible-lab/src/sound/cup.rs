@@ -104,7 +104,7 @@ impl Cup {
             ..BakeSpec::new("cup", shape, material.clone())
         };
         let asset = bake(&spec)?;
-        let kind = Breakable::new(Arc::new(asset))?;
+        let kind = Breakable::uniform(Arc::new(asset))?;
         let intact = kind.body(1);
         let mut two_tones = [0.0; 2];
         for (tone, angle) in two_tones.iter_mut().zip([0.25 * TAU, 0.125 * TAU]) {

@@ -129,7 +129,7 @@ impl Plan {
             ..BakeSpec::new(self.name, self.shape, self.material)
         };
         let asset = bake(&spec)?;
-        let kind = Breakable::new(Arc::new(asset))?;
+        let kind = Breakable::uniform(Arc::new(asset))?;
         let (shape, body) = AssetSound::new(&kind.body(1), &damping, Hold::Free)?;
         let push = shape.push(self.point, self.direction);
         let samples = struck(&body, vec![blow(push)], LONG)?;

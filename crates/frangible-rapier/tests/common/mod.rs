@@ -12,8 +12,8 @@ use frangible::internals::asset::{
 use frangible::internals::modal::ModalBasis;
 use frangible::internals::{MassProperties, TetMesh};
 use frangible::{
-    Asset, Body, Contact, Fracture, FractureConfig, Fragment, ImpactReport, InputError, Material,
-    Outcome, TriMesh,
+    Asset, Body, Breakable, Contact, Fracture, FractureConfig, Fragment, ImpactReport, InputError,
+    Material, Outcome, TriMesh,
 };
 use frangible_rapier::rapier3d::math::{Pose, Vector};
 use frangible_rapier::{BreakableWorld, WorldConfig};
@@ -101,7 +101,7 @@ pub(crate) fn box_asset(half: Vec3, cells: [usize; 3]) -> Arc<Asset> {
 }
 
 pub(crate) fn body(asset: &Arc<Asset>) -> Body {
-    Body::new(Arc::clone(asset), 1).unwrap()
+    Breakable::uniform(Arc::clone(asset)).unwrap().body(1)
 }
 
 fn block_mass(centre: Vec3, half: Vec3) -> MassProperties {

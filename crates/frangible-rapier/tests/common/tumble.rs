@@ -57,7 +57,7 @@ pub(crate) fn tumble(kinds: &[Arc<Asset>], height: f32, seconds: f32) -> Tumble 
     }
     let kinds: Vec<Breakable> = kinds
         .iter()
-        .map(|asset| Breakable::new(Arc::clone(asset)).unwrap())
+        .map(|asset| Breakable::uniform(Arc::clone(asset)).unwrap())
         .collect();
     for i in 0..BODIES {
         let (row, column) = (i / 10, i % 10);

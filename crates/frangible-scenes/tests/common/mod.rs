@@ -5,7 +5,7 @@ pub(crate) mod drawn;
 use std::sync::{Arc, OnceLock};
 
 use frangible::glam::Vec3;
-use frangible::{Asset, Body, Contact, FractureConfig, Material, Outcome, Striker, impact};
+use frangible::{Asset, Breakable, Contact, FractureConfig, Material, Outcome, Striker, impact};
 use frangible_bake::{BakeSpec, Shape, bake};
 
 /// A fracture mesh with edges `coarser` times the default's, and few modes.
@@ -117,7 +117,7 @@ pub(crate) fn strike(
     config: &FractureConfig,
 ) -> Outcome {
     impact(
-        &Body::new(Arc::clone(asset), seed).unwrap(),
+        &Breakable::uniform(Arc::clone(asset)).unwrap().body(seed),
         contacts,
         config,
     )

@@ -257,7 +257,7 @@ mod tests {
             ..BakeSpec::new("plate", Shape::plate(0.24, 0.1, 0.004), glass.clone())
         };
         let asset = bake(&spec).expect("a bake");
-        let body = Breakable::new(Arc::new(asset)).expect("a kind").body(1);
+        let body = Breakable::uniform(Arc::new(asset)).expect("a kind").body(1);
         let mass = body.asset().mass().mass;
         let half = Sounding::Piece(glass, 0.5 * mass);
         let grid = |z: f32| {

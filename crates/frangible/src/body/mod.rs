@@ -35,17 +35,29 @@ pub struct Breakable {
 }
 
 impl Breakable {
-    /// Checks an asset and prepares it.
+    /// Checks an asset and prepares it. The strength scatters from one weak point to the next and decreases under a sustained load as it does for the
+    /// material with this name ([`Preset::named`](crate::internals::Preset::named)); a material with another name has uniform strength.
     ///
     /// # Errors
     /// The arrays of the asset are inconsistent, or a number of its material is invalid.
     pub fn new(asset: impl Into<Arc<Asset>>) -> Result<Self, InputError> {
+        let uniform = Self::uniform(asset)?;
+        let fields = Fields::of_material(&uniform.asset.material);
+        uniform.with_fields(fields)
+    }
+
+    /// Checks an asset and prepares it like [`Breakable::new`], but every weak point has exactly the strength of the material, under a load of any
+    /// duration. For comparisons with theory, and for tests.
+    ///
+    /// # Errors
+    /// The errors of [`Breakable::new`].
+    pub fn uniform(asset: impl Into<Arc<Asset>>) -> Result<Self, InputError> {
         let asset = asset.into();
         asset.validate()?;
         Ok(Self::of_sound(asset))
     }
 
-    /// The kind of an asset that has been checked.
+    /// The kind of an asset that has been checked, with uniform strength.
     pub(crate) fn of_sound(asset: Arc<Asset>) -> Self {
         let fields = Arc::new(Fields::default());
         Self {

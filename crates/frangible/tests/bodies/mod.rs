@@ -12,7 +12,7 @@ use frangible::{
 fn load(name: &str) -> Breakable {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bodies");
     let asset = Asset::load(path.join(name)).expect("a body that this build can read");
-    Breakable::new(asset).expect("a sound body")
+    Breakable::uniform(asset).expect("a sound body")
 }
 
 /// Pane of glass 0.2 × 0.2 m, 4 mm thick, its normal z: a wall everywhere.

@@ -119,7 +119,7 @@ pub fn measure(
 ) -> Result<Findings, BenchError> {
     let name = format!("{MATERIAL}-{}", subject.file());
     let baked = cache.body(&name, MODES, MATERIAL, || subject.geometry(), progress)?;
-    let kind = Breakable::new(baked.asset)?;
+    let kind = Breakable::uniform(baked.asset)?;
     let runs = options.runs.max(1);
     let of_all = (runs + usize::from(options.paced)) as f64;
     let mut best: Option<Log> = None;

@@ -136,7 +136,7 @@ fn of_body(
     let contact = subject.contact(&baked.asset, subject.blow.speed_ours)?;
     let mut asset = baked.asset;
     asset.parts_mut().material.strength *= TOUGHER;
-    let body = Breakable::new(asset)?.body(1);
+    let body = Breakable::uniform(asset)?.body(1);
     // Ours reads rows of its own for most bodies; in the paper's model all stress comes from displacements.
     let mut config = FractureConfig::as_in_the_paper();
     config.culling = false;

@@ -37,7 +37,7 @@ pub(crate) fn bake_all() -> Result<Vec<Kind>, BenchError> {
         let lowest = asset.fracture().positions.iter().map(|p| p.z);
         let foot = -lowest.fold(f32::INFINITY, f32::min);
         Ok(Kind {
-            breakable: Breakable::new(Arc::new(asset))?,
+            breakable: Breakable::uniform(Arc::new(asset))?,
             foot,
         })
     };

@@ -121,7 +121,7 @@ fn throw(
     rabbit: Arc<Asset>,
     config: &FractureConfig,
 ) -> Result<Thrown, FigureError> {
-    let kind = Breakable::new(Arc::clone(&rabbit))?;
+    let kind = Breakable::uniform(Arc::clone(&rabbit))?;
     let stone = Striker::fixed(&Material::preset("stone")?);
     let mut speed = SLOWEST;
     while speed < FASTEST {

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use frangible::glam::{Quat, Vec3};
-use frangible::{Asset, Body, Contact, FractureConfig, Outcome, impact};
+use frangible::{Asset, Breakable, Contact, FractureConfig, Outcome, impact};
 use image::RgbImage;
 
 use crate::figures::FigureError;
@@ -119,7 +119,7 @@ fn broken(
     config: &FractureConfig,
     label: &str,
 ) -> Result<RgbImage, FigureError> {
-    let body = Body::new(Arc::clone(plate), 1)?;
+    let body = Breakable::uniform(Arc::clone(plate))?.body(1);
     let outcome = impact(&body, std::slice::from_ref(contact), config)?;
     let mut model = Model::default();
     let colours = PieceColours {

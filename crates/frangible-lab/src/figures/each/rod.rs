@@ -4,7 +4,7 @@ use crate::plot::{Axis, Chart, Marker, Series};
 use frangible::glam::{Quat, Vec3};
 use frangible::internals::DurationModel;
 use frangible::internals::contact::{contact_duration, modal_load, most_excited_mode};
-use frangible::{Asset, Body, Contact, Striker};
+use frangible::{Asset, Body, Breakable, Contact, Striker};
 use frangible_bake::Shape;
 use frangible_bake::mode_field::{mode_on_fracture_mesh, von_mises};
 use frangible_draw::{ModeCell, ModeSheetOptions, mode_sheet};
@@ -108,7 +108,7 @@ const SHOWN: [Landing; 4] = [
 fn compute(workshop: &mut Workshop<'_>) -> Result<Findings, FigureError> {
     workshop.tell("baking the rod", 0.0);
     let rod = baked("rod", Shape::rod(LENGTH, SIDE), MATERIAL, 8000.0, MODES)?;
-    let body = Body::new(rod, 1)?;
+    let body = Breakable::uniform(rod)?.body(1);
     workshop.tell("landings", 0.6);
     let angles = (0..=30).map(|i| 3.0 * f64::from(i));
     let leaning: Vec<(f64, Answer)> = angles

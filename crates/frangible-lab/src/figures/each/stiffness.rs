@@ -83,7 +83,7 @@ fn compute(workshop: &mut Workshop<'_>) -> Result<Findings, FigureError> {
     workshop.tell("baking the piggy bank", 0.0);
     let shape = Shape::ready("piggy_bank").ok_or(FigureError::Nothing("no piggy bank"))?;
     let pig = baked("piggy bank", shape, "paper-piggy", 20_000.0, MODES)?;
-    let body = Breakable::new(Arc::clone(&pig))?.body(1);
+    let body = Breakable::uniform(Arc::clone(&pig))?.body(1);
     let mut cells = Vec::new();
     let mut static_pieces = Vec::new();
     for (ball, word) in DRAWN {

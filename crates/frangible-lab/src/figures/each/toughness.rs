@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::plot::{Axis, Chart, Marker, Series};
 use frangible::glam::Vec3;
 use frangible::internals::impact_traced;
-use frangible::{Asset, Body, Contact, FractureConfig};
+use frangible::{Asset, Breakable, Contact, FractureConfig};
 use image::RgbImage;
 
 use crate::figures::FigureError;
@@ -153,7 +153,7 @@ pub(crate) fn pattern(
     config: &FractureConfig,
     label: &str,
 ) -> Result<RgbImage, FigureError> {
-    let body = Body::new(Arc::clone(slab), 1)?;
+    let body = Breakable::uniform(Arc::clone(slab))?.body(1);
     let (_, trace) = impact_traced(&body, std::slice::from_ref(contact), config)?;
     let mut model = Model::default();
     let mesh = slab.fracture();

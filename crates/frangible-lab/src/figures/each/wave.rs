@@ -8,7 +8,7 @@ use frangible::internals::contact::{
 };
 use frangible::internals::modal::{Motion, respond};
 use frangible::internals::stress::{Symmetric3, largest_eigenvalue};
-use frangible::{Asset, Body, FractureConfig};
+use frangible::{Asset, Body, Breakable, FractureConfig};
 use frangible_bake::mode_field::mode_on_fracture_mesh;
 use frangible_draw::{ModeCell, ModeSheetOptions, mode_sheet};
 
@@ -123,7 +123,7 @@ fn compute(workshop: &mut Workshop<'_>) -> Result<Findings, FigureError> {
     workshop.tell("stresses of the modes", 0.3);
     let faces = Faces::new(&slab);
     let contact = slab_blow(&slab)?;
-    let body = Body::new(slab, 1)?;
+    let body = Breakable::uniform(slab)?.body(1);
     let waves = models().map(|(_, config)| wave(&body, contact.clone(), &config));
     let [paper, ours] = &waves;
 

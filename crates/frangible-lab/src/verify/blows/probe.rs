@@ -116,7 +116,7 @@ pub(crate) fn solid(
 
 /// A body of an asset.
 pub(crate) fn body(asset: Asset) -> Result<Body, BakeError> {
-    Ok(Breakable::new(asset)?.body(1))
+    Ok(Breakable::uniform(asset)?.body(1))
 }
 
 /// A steel ball on the upper face of the plate.

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use frangible::glam::Vec3;
 use frangible::internals::DurationModel;
 use frangible::internals::contact::{contact_duration, hertz_duration, modal_load, pulse};
-use frangible::{Body, Contact, FractureConfig, Striker};
+use frangible::{Breakable, Contact, FractureConfig, Striker};
 use frangible_bake::fem::Elasticity;
 use frangible_bake::{BakeError, bake_with};
 
@@ -77,7 +77,9 @@ fn compute(progress: &mut dyn FnMut(f64)) -> Result<Findings, BakeError> {
     let top = Vec3::new(0.0, RADII[0] as f32, 0.0);
     let hit = Contact::strike(top, Vec3::NEG_Y, SPEED as f32, striker);
     let asset = Arc::new(asset);
-    let body = Body::new(Arc::clone(&asset), 1).map_err(BakeError::from)?;
+    let body = Breakable::uniform(Arc::clone(&asset))
+        .map_err(BakeError::from)?
+        .body(1);
     let load = modal_load(&body, &[hit]);
     let duration = contact_duration(&asset, &load, DurationModel::Hertz);
     checks.push(seconds(
