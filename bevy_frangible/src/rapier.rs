@@ -77,7 +77,7 @@ fn insert(
     let rigid = RigidBodyBuilder::dynamic().pose(pose);
     match world
         .0
-        .insert_body(body.0.clone(), rigid, |collider| collider)
+        .insert(body.0.clone(), rigid)
     {
         Ok(handle) => {
             commands.entity(entity).try_insert(RapierBody(handle));

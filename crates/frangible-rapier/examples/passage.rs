@@ -2,6 +2,7 @@
 //! several lengths. A measuring tool: `cargo run --release -p frangible-rapier --example passage -- 20 40 0.25` throws at 20 m/s with forty
 //! seeds, and looks at the ball 0.25 s after it could have touched the pane.
 
+use frangible_rapier::rapier3d::dynamics::RigidBodyBuilder;
 use std::error::Error;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -123,7 +124,7 @@ impl Throw {
         (config.gravity, config.dt) = (Vector::ZERO, 1.0 / rate);
         let mut world = BreakableWorld::new(config)?;
         let pane = self.pane.body(seed);
-        world.insert_breakable(pane, Pose::IDENTITY, Vector::ZERO, Vector::ZERO)?;
+        world.insert(pane, RigidBodyBuilder::dynamic())?;
         let surface = SurfaceProperties::of(&self.steel, RADIUS);
         let [x, y, z] = START.to_array();
         let ball = world.insert_rigid(

@@ -1,6 +1,7 @@
 //! A window in the wall of a game that has a Rapier world of its own, with its own event handler:
 //! `cargo run --release -p frangible-rapier --example window`.
 
+use frangible_rapier::rapier3d::dynamics::RigidBodyBuilder;
 use std::error::Error;
 use std::sync::mpsc::channel;
 
@@ -34,7 +35,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let rigid = RigidBodyBuilder::fixed().translation(Vector::new(0.0, 1.2, 0.0));
     breaker.with(Sets::from(&mut game), |world| {
         let heard = |c: ColliderBuilder| c.active_events(ActiveEvents::COLLISION_EVENTS);
-        world.insert_body(kind.body(1), rigid, heard)
+        world.insert_with(kind.body(1), rigid, heard)
     })?;
 
     // The game hears what meets what, to play sounds; Rapier's own collector is its event handler.

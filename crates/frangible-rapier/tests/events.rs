@@ -2,6 +2,7 @@
 
 use crate::common::{at, body, box_asset, slicer, step_to_break, unbreakable, world};
 use frangible::glam::Vec3;
+use frangible_rapier::rapier3d::dynamics::RigidBodyBuilder;
 use frangible_rapier::rapier3d::math::{Pose, Vector};
 use frangible_rapier::{Ball, SurfaceProperties};
 
@@ -17,7 +18,12 @@ fn a_contact_holds_the_numbers_of_the_impact() {
     );
     let asset = box_asset(HALF, [2, 2, 2]);
     let handle = world
-        .insert_breakable(body(&asset), pose, Vector::new(0.0, 0.0, 1.0), Vector::ZERO)
+        .insert(
+            body(&asset),
+            RigidBodyBuilder::dynamic()
+                .pose(pose)
+                .linvel(Vector::new(0.0, 0.0, 1.0)),
+        )
         .unwrap();
     world.set_break_function(unbreakable());
     let ball = Ball {
@@ -90,7 +96,10 @@ fn a_fall_on_the_floor_pushes_up_with_an_unmovable_striker() {
         .unwrap();
     let asset = box_asset(HALF, [1, 1, 1]);
     world
-        .insert_breakable(body(&asset), at(0.0, 0.3, 0.0), Vector::ZERO, Vector::ZERO)
+        .insert(
+            body(&asset),
+            RigidBodyBuilder::dynamic().pose(at(0.0, 0.3, 0.0)),
+        )
         .unwrap();
     world.set_break_function(unbreakable());
     let contacts = (0..200).find_map(|_| {
@@ -124,11 +133,9 @@ fn resting_contact_is_no_impact() {
         .insert_fixed_half_space(Vector::ZERO, Vector::Y, SurfaceProperties::STONE)
         .unwrap();
     world
-        .insert_breakable(
+        .insert(
             body(&box_asset(HALF, [1, 1, 1])),
-            at(0.0, 0.0501, 0.0),
-            Vector::ZERO,
-            Vector::ZERO,
+            RigidBodyBuilder::dynamic().pose(at(0.0, 0.0501, 0.0)),
         )
         .unwrap();
     world.set_break_function(slicer(HALF, [2, 2, 2], 0.0, 0.0));
@@ -149,7 +156,7 @@ fn a_break_event_tells_all() {
     let asset = box_asset(HALF, [2, 2, 2]);
     let pose = Pose::new(Vector::new(0.1, 0.2, 0.3), Vector::new(0.3, 0.2, 0.1));
     let parent = world
-        .insert_breakable(body(&asset), pose, Vector::ZERO, Vector::ZERO)
+        .insert(body(&asset), RigidBodyBuilder::dynamic().pose(pose))
         .unwrap();
     let ball = Ball {
         mass: 0.1,
@@ -201,11 +208,11 @@ fn two_boxes_that_meet_both_break_in_one_step() {
     for side in [-1.0_f32, 1.0] {
         let pose = at(side * 0.0525, 0.0, 0.0);
         world
-            .insert_breakable(
+            .insert(
                 body(&asset),
-                pose,
-                Vector::new(-3.0 * side, 0.0, 0.0),
-                Vector::ZERO,
+                RigidBodyBuilder::dynamic()
+                    .pose(pose)
+                    .linvel(Vector::new(-3.0 * side, 0.0, 0.0)),
             )
             .unwrap();
     }
@@ -227,7 +234,10 @@ fn a_break_that_does_not_fit_leaves_the_body_whole() {
     let mut world = frangible_rapier::BreakableWorld::new(config).unwrap();
     let asset = box_asset(HALF, [1, 1, 1]);
     let parent = world
-        .insert_breakable(body(&asset), at(0.0, 0.0, 0.0), Vector::ZERO, Vector::ZERO)
+        .insert(
+            body(&asset),
+            RigidBodyBuilder::dynamic().pose(at(0.0, 0.0, 0.0)),
+        )
         .unwrap();
     let ball = Ball {
         mass: 0.1,

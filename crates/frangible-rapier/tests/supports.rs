@@ -6,7 +6,7 @@ use crate::common::{Judge, at, body, box_asset, sliced, step_to_break, unbreakab
 use frangible::glam::Vec3;
 use frangible::internals::asset::AssetParts;
 use frangible::{Asset, Outcome};
-use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
+use frangible_rapier::rapier3d::dynamics::{RigidBodyBuilder, RigidBodyHandle};
 use frangible_rapier::rapier3d::math::{Pose, Vector};
 use frangible_rapier::{Ball, BreakableWorld, SurfaceProperties};
 
@@ -47,7 +47,7 @@ fn shelf(energy: f64) -> (BreakableWorld, RigidBodyHandle) {
     let mut world = world(true);
     let asset = held_box(SHELF, [4, 1, 3], |p| p.x < -0.099);
     let handle = world
-        .insert_breakable(body(&asset), Pose::IDENTITY, Vector::ZERO, Vector::ZERO)
+        .insert(body(&asset), RigidBodyBuilder::dynamic())
         .unwrap();
     world.set_break_function(holding_slicer(SHELF, [2, 1, 1], energy, |c| c.x < -0.02));
     (world, handle)
@@ -57,7 +57,7 @@ fn pane(energy: f64) -> (BreakableWorld, RigidBodyHandle) {
     let mut world = world(true);
     let asset = held_box(PANE, [1, 4, 4], |p| p.y.abs() > 0.149 || p.z.abs() > 0.149);
     let handle = world
-        .insert_breakable(body(&asset), Pose::IDENTITY, Vector::ZERO, Vector::ZERO)
+        .insert(body(&asset), RigidBodyBuilder::dynamic())
         .unwrap();
     // Five by five: the outer ring is held, nine pieces are not.
     world.set_break_function(holding_slicer(PANE, [1, 5, 5], energy, |c| {
@@ -91,7 +91,13 @@ fn a_supported_body_is_fixed_whatever_velocity_it_is_given() {
     let mut world = world(true);
     let asset = held_box(SHELF, [4, 1, 3], |p| p.x < -0.099);
     let handle = world
-        .insert_breakable(body(&asset), at(1.0, 2.0, 3.0), Vector::X, Vector::Y)
+        .insert(
+            body(&asset),
+            RigidBodyBuilder::dynamic()
+                .pose(at(1.0, 2.0, 3.0))
+                .linvel(Vector::X)
+                .angvel(Vector::Y),
+        )
         .unwrap();
     for _ in 0..100 {
         world.step().unwrap();
@@ -142,11 +148,11 @@ fn a_dynamic_body_that_hits_a_held_one_meets_an_immovable_striker() {
     let brick = box_asset(Vec3::splat(0.02), [1, 1, 1]);
     let start = at(0.05, 0.05, 0.0);
     let brick = world
-        .insert_breakable(
+        .insert(
             body(&brick),
-            start,
-            Vector::new(0.0, -3.0, 0.0),
-            Vector::ZERO,
+            RigidBodyBuilder::dynamic()
+                .pose(start)
+                .linvel(Vector::new(0.0, -3.0, 0.0)),
         )
         .unwrap();
     let mut seen = Vec::new();

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use frangible::glam::{Quat, Vec3};
 use frangible::{Asset, Body, Breakable, Material};
 use frangible_bake::weakness;
-use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
+use frangible_rapier::rapier3d::dynamics::{RigidBodyBuilder, RigidBodyHandle};
 use frangible_rapier::rapier3d::geometry::SharedShape;
 use frangible_rapier::rapier3d::math::{Pose, Rotation, Vector};
 use frangible_rapier::{BreakableWorld, ColliderDetail, SurfaceProperties, WorldConfig};
@@ -139,7 +139,7 @@ pub(crate) fn set_up_kinds<'a>(
     #[cfg(feature = "bake")]
     if scene.pieces.generations > 0 {
         let model = frangible_bake::pieces::Pieces::new(scene.pieces.method);
-        world.set_piece_model(Some(Arc::new(model)));
+        world = world.with_piece_model(model);
     }
     let numbers = 0..scene.projectiles.len();
     let mut stage = Stage {
@@ -245,7 +245,13 @@ fn put<'a>(
     let q = spec.rotation;
     let pose = Pose::from_parts(vector(centre), Rotation::from_xyzw(q.x, q.y, q.z, q.w));
     let sounding = Sounding::Modes(body.clone());
-    let handle = world.insert_breakable(body, pose, vector(spec.velocity), vector(spec.spin))?;
+    let handle = world.insert(
+        body,
+        RigidBodyBuilder::dynamic()
+            .pose(pose)
+            .linvel(vector(spec.velocity))
+            .angvel(vector(spec.spin)),
+    )?;
     let mut look = appearance(&asset.material().name);
     let clear = look.outside.transmission > 0.0;
     if let Some(render) = asset.render()

@@ -1,10 +1,8 @@
 //! A world of breakable bodies lives through whatever a game does to it: no panic, finite poses, no mass made or lost.
 
-use std::sync::Arc;
-
 use frangible::{Striker, impact};
 use frangible_bake::pieces::{Method, Pieces};
-use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
+use frangible_rapier::rapier3d::dynamics::{RigidBodyBuilder, RigidBodyHandle};
 use frangible_rapier::rapier3d::geometry::SharedShape;
 use frangible_rapier::rapier3d::math::{Pose, Rotation, Vector};
 use frangible_rapier::{
@@ -143,7 +141,13 @@ impl Play {
                 let body = kinds()[draw.below(3)].body(u64::from(draw.byte()));
                 let mass = body.asset().mass().mass;
                 let (pose, moves, spins) = (pose(draw), vector(draw, 15.0), vector(draw, 10.0));
-                if let Ok(handle) = world.insert_breakable(body, pose, moves, spins) {
+                if let Ok(handle) = world.insert(
+                    body,
+                    RigidBodyBuilder::dynamic()
+                        .pose(pose)
+                        .linvel(moves)
+                        .angvel(spins),
+                ) {
                     self.bodies.push(handle);
                     self.mass += mass;
                 }
@@ -311,7 +315,7 @@ pub fn world(data: &[u8]) {
             _ => Method::ParentModes,
         });
         (pieces.elements, pieces.modes) = (Some(40), 8);
-        world.set_piece_model(Some(Arc::new(pieces)));
+        world = world.with_piece_model(pieces);
     }
     let floor = world.insert_fixed_half_space(Vector::NEG_Y, Vector::Y, SurfaceProperties::STONE);
     floor.expect("a floor");

@@ -58,10 +58,14 @@ impl Expected {
 }
 
 impl BreakableWorld {
-    /// Sets the model that computes the modes of fragments, so that they can break again according to
-    /// [`WorldConfig::pieces`](crate::WorldConfig::pieces). `None`, the initial state: they cannot.
-    pub fn set_piece_model(&mut self, model: Option<Arc<dyn PieceModel>>) {
-        self.piece_model = model;
+    /// This world with a model that computes the modes of fragments, so that they can break again according to
+    /// [`WorldConfig::pieces`](crate::WorldConfig::pieces). Without one they cannot.
+    #[must_use]
+    pub fn with_piece_model(self, model: impl PieceModel + 'static) -> Self {
+        Self {
+            piece_model: Some(Arc::new(model)),
+            ..self
+        }
     }
 
     /// Asks for breakable bodies in the place of the fragments of a body that broke.

@@ -1,5 +1,6 @@
 //! Bodies that tumble down stairs.
 
+use frangible_rapier::rapier3d::dynamics::RigidBodyBuilder;
 use std::f32::consts::TAU;
 use std::sync::Arc;
 
@@ -71,7 +72,15 @@ pub(crate) fn tumble(kinds: &[Arc<Asset>], height: f32, seconds: f32) -> Tumble 
         let pose = Pose::new(at, Vector::new(turn, 0.5 * turn, 0.3));
         let body = kinds[i % kinds.len()].body(i as u64);
         let (forward, spin) = (Vector::new(0.8, 0.0, 0.0), Vector::new(0.0, 0.0, -4.0));
-        world.insert_breakable(body, pose, forward, spin).unwrap();
+        world
+            .insert(
+                body,
+                RigidBodyBuilder::dynamic()
+                    .pose(pose)
+                    .linvel(forward)
+                    .angvel(spin),
+            )
+            .unwrap();
     }
     let mut broken = 0;
     let dt = world.physics.integration_parameters.dt;
