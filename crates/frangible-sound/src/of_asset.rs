@@ -6,7 +6,7 @@ use frangible::Asset;
 use frangible::internals::asset::each_row;
 use glam::{DVec3, Vec3};
 
-use crate::body::{Body, Mode};
+use crate::body::{Mode, SoundBody};
 use crate::damping::{AudibleDamping, Hold};
 use crate::error::SoundError;
 use crate::sphere::{EquivalentSphere, SurfaceElement};
@@ -32,7 +32,7 @@ impl AssetSound {
         body: &frangible::Body,
         damping: &AudibleDamping,
         hold: Hold,
-    ) -> Result<(Self, Body), SoundError> {
+    ) -> Result<(Self, SoundBody), SoundError> {
         let asset = body.asset();
         let surface = elements(asset);
         let places: Vec<SurfaceElement> = surface.iter().map(|(_, element)| *element).collect();
@@ -45,7 +45,7 @@ impl AssetSound {
             // Rounding gives a loose piece modes of a fraction of a hertz, which nobody hears.
             Mode::new(frequency.max(1.0), motion, &sphere, damping, hold)
         });
-        let sound = Body {
+        let sound = SoundBody {
             name: asset.name().to_owned(),
             mass: if asset.is_supported() {
                 f64::INFINITY

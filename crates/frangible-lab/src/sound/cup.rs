@@ -68,7 +68,7 @@ pub struct Knocked {
 }
 
 impl Knocked {
-    fn new(samples: Vec<f32>, body: &frangible_sound::Body, rubbed: f64) -> Self {
+    fn new(samples: Vec<f32>, body: &frangible_sound::SoundBody, rubbed: f64) -> Self {
         let modes = body.modes.iter().take(4).map(|mode| mode.frequency);
         let peak = Spectrum::of(&samples, RATE).peak(300.0, 6000.0);
         let falls = [0.1, 0.01, 0.001].map(|share| {
@@ -154,7 +154,10 @@ impl Cup {
 }
 
 /// The cup as it sounds, and the modal forces of a newton on its wall near the rim at an angle about z; the handle is at −y.
-fn at_rim(cup: &Body, angle: f64) -> Result<(frangible_sound::Body, Vec<f32>), Box<dyn Error>> {
+fn at_rim(
+    cup: &Body,
+    angle: f64,
+) -> Result<(frangible_sound::SoundBody, Vec<f32>), Box<dyn Error>> {
     let damping = AudibleDamping::of(cup.asset().material());
     let (shape, body) = AssetSound::new(cup, &damping, Hold::Free)?;
     let outward = Vec3::new(angle.cos() as f32, angle.sin() as f32, 0.0);
