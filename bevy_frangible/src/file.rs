@@ -3,7 +3,7 @@
 use bevy::asset::io::Reader;
 use bevy::asset::{AssetLoader, LoadContext};
 use bevy::prelude::*;
-use frangible::internals::AssetFileError;
+use frangible::AssetFileError;
 use frangible::{Asset as Baked, Breakable as Kind, InputError};
 use thiserror::Error;
 

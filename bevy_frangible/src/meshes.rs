@@ -19,7 +19,11 @@ pub(crate) fn into(v: Vec3) -> glam::Vec3 {
 /// The outer surface of a whole body.
 pub(crate) fn whole(baked: &Baked) -> Mesh {
     let positions = baked.surface_positions();
-    let corners = baked.surface().triangles.iter().zip(&baked.surface().normals);
+    let corners = baked
+        .surface()
+        .triangles
+        .iter()
+        .zip(&baked.surface().normals);
     mesh(corners.map(|(t, n)| (t.map(|v| positions[v as usize]), *n)))
 }
 

@@ -8,7 +8,7 @@ use bevy::prelude::*;
 use bevy_frangible::prelude::*;
 use bevy_frangible::{BreakableBody, Fracturing};
 use frangible::Asset as Baked;
-use frangible::internals::Fields;
+use frangible::Fields;
 
 fn said(log: &Log, words: &str) -> bool {
     log.lines().iter().any(|line| line.contains(words))

@@ -38,7 +38,7 @@ pub fn lost(scene: &Scene, seed: u64) -> Result<Option<f64>, InputError> {
     let centre = point - normal * f64::from(radius);
     let velocity = normal * f64::from(speed);
     let mut ball = [Rigid::free(mass, inertia, [centre, velocity, DVec3::ZERO])];
-    let still = |m: &bevy_frangible::frangible::internals::MassProperties, centre: DVec3| {
+    let still = |m: &bevy_frangible::frangible::MassProperties, centre: DVec3| {
         Rigid::free(m.mass, m.inertia, [centre, DVec3::ZERO, DVec3::ZERO])
     };
     let outcome = impact(&body, &[contact], &FractureConfig::default())?;

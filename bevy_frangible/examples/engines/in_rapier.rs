@@ -33,7 +33,12 @@ pub fn run(scene: &Scene, seed: u64, rate: f32) -> Result<Outcome, WorldError> {
         world.insert_fixed_half_space(Vector::ZERO, Vector::Y, surface)?;
     }
     let (body, start) = (scene.kind.body(seed), &scene.start);
-    world.insert(body, RigidBodyBuilder::dynamic().pose(pose(start)).linvel(start.velocity))?;
+    world.insert(
+        body,
+        RigidBodyBuilder::dynamic()
+            .pose(pose(start))
+            .linvel(start.velocity),
+    )?;
     let striker = match &scene.striker {
         None => None,
         Some(Striker {

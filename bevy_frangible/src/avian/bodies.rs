@@ -2,9 +2,9 @@
 
 use avian3d::prelude::*;
 use bevy::prelude::*;
+use frangible::MassProperties;
 use frangible::Material;
 use frangible::glam::DQuat;
-use frangible::internals::MassProperties;
 use frangible::internals::mesh::symmetric_eigen;
 
 use super::colliders::{ColliderDetail, of_fragment, whole};

@@ -9,7 +9,7 @@ use std::sync::PoisonError;
 
 use avian3d::prelude::*;
 use bevy::prelude::*;
-use frangible::internals::BodyState;
+use frangible::BodyState;
 use frangible::{Body, Contact, FractureConfig, Outcome, impact};
 
 use super::colliders::{ColliderDetail, of_fragment};

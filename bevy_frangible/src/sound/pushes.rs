@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use avian3d::prelude::*;
 use bevy::prelude::*;
 use frangible::Material;
-use frangible_sound::{EngineStep, EngineMotion, Push};
+use frangible_sound::{EngineMotion, EngineStep, Push};
 
 use super::Heard;
 use crate::meshes::into;

@@ -7,8 +7,8 @@ use std::error::Error;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
+use frangible::MassProperties;
 use frangible::glam::{DMat3, DVec3, Vec3};
-use frangible::internals::MassProperties;
 use frangible::internals::rigid::{
     Kick, Rigid, fly_through, nearest_first, take_blow, take_energy, take_held,
 };

@@ -91,6 +91,7 @@ impl Asset {
     }
 
     /// Returns the baked asset: the asset itself, or for a piece the asset of the baked body it comes from.
+    #[doc(hidden)]
     #[must_use]
     pub fn root(&self) -> &Self {
         match &self.portion {
@@ -100,6 +101,7 @@ impl Asset {
     }
 
     /// Returns the positions of the vertices of [`Asset::surface`], m, in the body frame.
+    #[doc(hidden)]
     #[must_use]
     pub fn surface_positions(&self) -> &[Vec3] {
         match &self.portion {
@@ -110,6 +112,7 @@ impl Asset {
 
     /// Returns the index of a fracture tetrahedron in per-tetrahedron lists of the body: its number in a baked body, its position in
     /// [`Portion::tets`] in a piece.
+    #[doc(hidden)]
     #[must_use]
     pub fn place(&self, tet: usize) -> usize {
         match &self.portion {
@@ -119,6 +122,7 @@ impl Asset {
     }
 
     /// Returns the centroid of a fracture tetrahedron, located in the analysis mesh. In a piece, `tet` must be in [`Portion::tets`].
+    #[doc(hidden)]
     #[must_use]
     pub fn embedded_tet(&self, tet: usize) -> &EmbeddedPoint {
         &self.embedding.tets[self.place(tet)]

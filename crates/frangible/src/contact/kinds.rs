@@ -20,13 +20,16 @@ pub struct Contact {
     pub normal: Vec3,
     /// Magnitude φ of the normal impulse, N·s. It is an input only for scripts and for duration models without integration. For an
     /// integrated blow the impulse is a result, and this value only sets the ratio of friction to normal impulse.
+    #[doc(hidden)]
     pub impulse: f32,
     /// Frictional part of the impulse on this body, N·s: the component perpendicular to the normal.
+    #[doc(hidden)]
     pub friction: Vec3,
     /// Approach speed along the normal before the rigid-body step, m/s.
     pub approach_speed: f32,
     /// Duration of a scripted blow, s: its impulse is applied as a half-sine, regardless of the striker. 0 for a striker, whose blow is
     /// [integrated](crate::internals::DurationModel::Integrated).
+    #[doc(hidden)]
     pub duration: f32,
     /// The striker.
     pub striker: Striker,
@@ -38,14 +41,19 @@ pub struct Contact {
 #[non_exhaustive]
 pub struct Striker {
     /// Plane-strain modulus E/(1−ν²), Pa; infinite for a rigid striker.
+    #[doc(hidden)]
     pub contact_modulus: f32,
     /// Pressure that crushes or permanently dents its surface, Pa ([`Material::crushing_pressure`]); infinite if none does.
+    #[doc(hidden)]
     pub crushing_pressure: f32,
     /// Inverse effective mass nᵀ K n of the striker at the contact, 1/kg; zero for an immovable striker.
+    #[doc(hidden)]
     pub inverse_effective_mass: f32,
     /// Radius of curvature at the contact, m; infinite for a flat striker.
+    #[doc(hidden)]
     pub curvature_radius: f32,
     /// Coefficient of restitution of the pair, 0..=1.
+    #[doc(hidden)]
     pub restitution: f32,
     /// Contact duration of the striker's own vibration, s; the longer of the durations of both bodies applies `[G12 §4.1]`. Used by the
     /// modal duration models; 0 for a striker that is not breakable. See [`answer_duration`](super::answer_duration).
@@ -223,6 +231,7 @@ impl Striker {
     }
 
     /// The same striker with this plane-strain modulus E/(1−ν²), Pa.
+    #[doc(hidden)]
     #[must_use]
     pub fn with_contact_modulus(self, modulus: f64) -> Self {
         Self {
@@ -290,6 +299,7 @@ impl Contact {
     }
 
     /// Returns true if the contact is scripted, with given impulse and duration.
+    #[doc(hidden)]
     #[must_use]
     pub fn is_script(&self) -> bool {
         self.duration > 0.0
@@ -372,6 +382,7 @@ impl Contact {
     ///
     /// # Errors
     /// The first field that is NaN, negative or not a unit vector.
+    #[doc(hidden)]
     pub fn validate(&self) -> Result<(), InputError> {
         finite("a contact's point", self.point)?;
         finite("a contact's normal", self.normal)?;

@@ -108,6 +108,7 @@ impl Fields {
     }
 
     /// Sets scatter and fatigue to the values of the preset with this material's name.
+    #[doc(hidden)]
     #[must_use]
     pub fn scattered_as(self, material: &Material) -> Self {
         match Preset::named(&material.name) {
@@ -164,6 +165,7 @@ impl Fields {
     }
 
     /// Sets the scatter of the strength, see [`Fields::weibull_modulus`].
+    #[doc(hidden)]
     #[must_use]
     pub fn with_weibull_modulus(self, weibull_modulus: f64) -> Self {
         Self {
