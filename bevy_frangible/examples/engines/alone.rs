@@ -26,11 +26,7 @@ pub fn lost(scene: &Scene, seed: u64) -> Result<Option<f64>, InputError> {
     let place = body
         .nearest_on_surface(start.at - Vec3::Z * start.at.z * 0.9)
         .position;
-    let by = Properties {
-        curvature_radius: radius,
-        inverse_effective_mass: (1.0 / mass) as f32,
-        ..Properties::fixed(&striker.material)
-    };
+    let by = Properties::ball(&striker.material, mass, f64::from(radius));
     let contact = Contact::strike(place, start.velocity / speed, speed, by);
     let normal = contact.normal.as_dvec3();
     let point = place.as_dvec3();
