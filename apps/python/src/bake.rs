@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use frangible::Material;
 use frangible::glam::DVec3;
 use frangible_bake::frangible_mesh::{self, InputGroup, InputMesh, PartChoice, Similarity};
-use frangible_bake::{BakeError, BakeSpec, CancelToken, ImportOptions, Progress, import_parts, Baked};
+use frangible_bake::{BakeError, BakeSpec, CancelToken, ImportOptions, Progress, import_parts};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
@@ -118,11 +118,13 @@ pub(crate) fn bake<'py>(
     if let Some(error) = stopped {
         return Err(error);
     }
-    let bodies = done?.into_iter().map(|(Baked { asset, report }, similarity)| {
-        let Similarity { scale, shift } = similarity;
-        let offset = numbers(py, (shift - report.centre).to_array());
-        Ok((Kind::new(asset)?, scale, offset))
-    });
+    let bodies = done?
+        .into_iter()
+        .map(|(frangible_bake::Baked { asset, report }, similarity)| {
+            let Similarity { scale, shift } = similarity;
+            let offset = numbers(py, (shift - report.centre).to_array());
+            Ok((Kind::new(asset)?, scale, offset))
+        });
     bodies.collect()
 }
 
