@@ -19,7 +19,7 @@ use crate::report::Progress;
 ///
 /// let porcelain = Material::preset("porcelain")?;
 /// for part in bake_file("lamp.glb", &porcelain, &ImportOptions::default())? {
-///     println!("{}: {:.3} kg, at {}", part.asset.name, part.report.mass, part.report.centre);
+///     println!("{}: {:.3} kg, at {}", part.asset.name(), part.report.mass, part.report.centre);
 /// }
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
