@@ -25,7 +25,7 @@ use crate::report::Progress;
 /// ```
 ///
 /// # Errors
-/// A file that cannot be read, and the errors of [`import_parts`] and [`bake()`].
+/// A file that cannot be read, and the errors of [`import_parts`] and [`bake()`](crate::bake()).
 pub fn bake_file(
     path: impl AsRef<Path>,
     material: &Material,
