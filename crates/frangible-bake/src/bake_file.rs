@@ -5,10 +5,11 @@ use std::path::Path;
 use frangible::Material;
 use frangible_mesh::read_mesh;
 
-use crate::bake::{BakeSpec, Baked, bake_with};
+use crate::bake::{Baked, bake_with};
 use crate::error::BakeError;
 use crate::import::{ImportOptions, import_parts};
 use crate::report::Progress;
+use crate::spec::BakeSpec;
 
 /// Reads a mesh file and bakes each of its parts, in the order of the file. An asset has the name of its part, or of the file if that is one
 /// part. The body frame of an asset has its origin at [`BakeReport::centre`](crate::BakeReport::centre) in the frame of the file, which places the parts to each other.

@@ -57,6 +57,8 @@ use frangible_mesh::random;
 mod report;
 pub mod shapes;
 mod sheet;
+#[cfg(feature = "solver")]
+mod spec;
 mod supports;
 #[cfg(feature = "solver")]
 pub mod surface;
@@ -65,7 +67,7 @@ mod walls;
 pub mod weakness;
 
 #[cfg(feature = "solver")]
-pub use bake::{BakeSpec, Baked, bake, bake_with};
+pub use bake::{Baked, bake, bake_with};
 #[cfg(feature = "solver")]
 pub use bake_file::{bake_file, bake_file_with};
 pub use cancel::CancelToken;
@@ -85,6 +87,8 @@ pub use shapes::{
     AnalysisChoice, MeshSize, PaneShape, READY_SHAPES, Shape, SolidShape, Station, TetShape,
     WallShape,
 };
+#[cfg(feature = "solver")]
+pub use spec::BakeSpec;
 pub use supports::{Region, Support, check_groups, check_supports};
 
 /// Largest number of modes of an asset. With this many, the bake of a drinking glass takes twice as long as with 120, and its file has 36 MB.
