@@ -20,8 +20,7 @@ impl FrangibleAsset {
     /// # Errors
     /// The asset is invalid.
     pub fn new(baked: Baked) -> Result<Self, InputError> {
-        let fields = Fields::of_material(&baked.material);
-        Ok(Self(Kind::new(baked)?.with_fields(fields)?))
+        Ok(Self(Kind::new(baked)?))
     }
 
     /// Materials of the file that was baked, which are also those of fragments: their names, colours, emission, sides and textures.

@@ -92,7 +92,7 @@ fn draw(
     if what.weak_points {
         for (body, place) in &bodies {
             let (body, place) = (&body.0, place.to_isometry());
-            let mesh = &body.asset().fracture;
+            let mesh = body.asset().fracture();
             for &tet in body.weak_tets() {
                 let corners = mesh.tets[tet as usize].map(|v| out(mesh.positions[v as usize]));
                 let centre = corners.into_iter().sum::<Vec3>() / 4.0;

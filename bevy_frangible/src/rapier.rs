@@ -75,10 +75,7 @@ fn insert(
     let (_, turn, at) = place.to_scale_rotation_translation();
     let pose = Pose::from_parts(into(at), Rotation::from_array(turn.to_array()));
     let rigid = RigidBodyBuilder::dynamic().pose(pose);
-    match world
-        .0
-        .insert_body(body.0.clone(), rigid, |collider| collider)
-    {
+    match world.0.insert(body.0.clone(), rigid) {
         Ok(handle) => {
             commands.entity(entity).try_insert(RapierBody(handle));
         }

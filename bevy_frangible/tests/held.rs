@@ -19,7 +19,7 @@ fn window() -> FrangibleAsset {
         Region::above(1, 0.49),
     ];
     spec.supports = edges.map(Support::clamped).to_vec();
-    FrangibleAsset::new(bake(&spec, &mut |_| {}).unwrap().0).unwrap()
+    FrangibleAsset::new(bake(&spec).unwrap()).unwrap()
 }
 
 /// Shoots two balls through a held pane, one after the other; shares of their speed along their way that they keep.

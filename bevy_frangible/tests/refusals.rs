@@ -8,7 +8,7 @@ use bevy::prelude::*;
 use bevy_frangible::prelude::*;
 use bevy_frangible::{BreakableBody, Fracturing};
 use frangible::Asset as Baked;
-use frangible::internals::Fields;
+use frangible::Fields;
 
 fn said(log: &Log, words: &str) -> bool {
     log.lines().iter().any(|line| line.contains(words))
@@ -70,7 +70,7 @@ fn a_file_of_a_newer_version_says_so() {
 fn numbers_that_make_no_strength_are_named() {
     let baked = || Baked::load(bodies().join("pane.frangible")).unwrap();
     let mut soft = baked();
-    soft.material.fracture_energy = 0.0;
+    soft.parts_mut().material.fracture_energy = 0.0;
     let refused = FrangibleAsset::new(soft).err().unwrap().to_string();
     assert!(refused.contains("fracture energy"), "{refused}");
     let kind = FrangibleAsset::new(baked()).unwrap().0;
@@ -82,7 +82,7 @@ fn numbers_that_make_no_strength_are_named() {
             f.fatigue.as_mut().unwrap().exponent = 0.0;
         }),
     ] {
-        let mut fields = Fields::of_material(&kind.asset().material);
+        let mut fields = Fields::of_material(kind.asset().material());
         spoil(&mut fields);
         let refused = kind.clone().with_fields(fields).err().unwrap().to_string();
         assert!(refused.contains(name), "{refused}");
@@ -120,9 +120,9 @@ fn a_uniform_scale_is_a_body_of_that_size() {
     let world = app.world();
     let body = |e: Entity| &world.get::<BreakableBody>(e).unwrap().0;
     let (small, large) = (body(one).asset(), body(twice).asset());
-    assert!((large.mass.mass / small.mass.mass - 8.0).abs() < 1e-4);
+    assert!((large.mass().mass / small.mass().mass - 8.0).abs() < 1e-4);
     // A frequency goes as one over the size.
-    let ratio = small.modes.eigenvalues[0] / large.modes.eigenvalues[0];
+    let ratio = small.modes().eigenvalues[0] / large.modes().eigenvalues[0];
     assert!((ratio - 4.0).abs() < 1e-9, "{ratio}");
     // The ball that would fly past the small one hits the large one, which is scaled once and not twice.
     ball(&mut app, Vec3::new(0.15, 0.005, 0.1), Vec3::NEG_Z * 20.0);

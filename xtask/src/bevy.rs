@@ -65,7 +65,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let glass = bevy_frangible::frangible::Material::preset("glass")?;
     let spec = BakeSpec::for_games("glass", Shape::drinking_glass(), glass)?;
     std::fs::create_dir_all("assets")?;
-    bake(&spec, &mut |_| {})?.0.save("assets/glass.frangible")?;
+    bake(&spec)?.save("assets/glass.frangible")?;
     Ok(())
 }
 "#;

@@ -25,6 +25,7 @@ use crate::passed;
 use crate::platforms::platforms;
 use crate::python;
 use crate::semver::semver;
+use crate::surface;
 use crate::test::{self, WITH_WINDOW, tested_program};
 use crate::web;
 
@@ -330,7 +331,7 @@ fn docs() -> Result<Vec<String>> {
     announced(
         cargo(&["doc", "--release", "--no-deps", "--workspace"]).env("RUSTDOCFLAGS", "-D warnings"),
     )
-    .map(|()| Vec::new())
+    .and_then(|()| surface::check())
 }
 
 fn licences() -> Result<Vec<String>> {

@@ -21,6 +21,7 @@ mod platforms;
 mod python;
 mod semver;
 mod setup;
+mod surface;
 mod test;
 mod web;
 
@@ -50,6 +51,7 @@ cargo xtask c [--write | --engines]
 cargo xtask python            build the Python wheel, and test it in a virtual environment
 cargo xtask blender           test the Blender extension with that wheel in the downloaded `bpy` module, without a window
 cargo xtask semver [REV]      compare the public interface of the published crates with the last version, or with another commit
+cargo xtask surface           list the public names at the root of `frangible`; fail if there are over 120, or one names a type of `internals`
 cargo xtask bevy              lint and test the Bevy plugin, in its own workspace
 cargo xtask bevy-drawn        lint the examples of the Bevy plugin, and compare their pictures
 cargo xtask bevy-web          build one of these examples as a web page, target/web/bevy-page, and open it in Chromium with software rendering
@@ -116,6 +118,7 @@ fn run(words: &[&str]) -> Result {
         ["c"] => c::library(&c::Wish::Try).map(drop),
         ["c", "--write"] => c::library(&c::Wish::Header).map(drop),
         ["c", "--engines"] => c::library(&c::Wish::Engines).map(drop),
+        ["surface"] => surface::surface().map(drop),
         ["python"] => python::wheel().map(drop),
         ["blender"] => blender::blender().map(drop),
         ["semver"] => semver::semver(None).map(drop),

@@ -156,13 +156,11 @@ fn collision(
 ) -> Result<Contact, Failure> {
     let [point, normal] = [given.point, given.normal].map(DVec3::from_array);
     let normal = normal.normalize_or_zero();
-    let mut striker = Striker {
-        contact_modulus: by.contact_modulus as f32,
-        crushing_pressure: by.crushing_pressure as f32,
-        curvature_radius: by.radius as f32,
-        restitution: by.restitution as f32,
-        ..Striker::rigid()
-    };
+    let mut striker = Striker::rigid()
+        .with_contact_modulus(by.contact_modulus)
+        .with_curvature_radius(by.radius)
+        .with_restitution(by.restitution);
+    striker.crushing_pressure = by.crushing_pressure as f32;
     let solid = solid(by)?;
     if let Some((mass, centre, inverse)) = solid {
         let arm = match by.kind {

@@ -4,7 +4,6 @@
 use std::ffi::{CString, c_char};
 
 use frangible::{Asset, Breakable};
-use frangible_js::plain;
 
 use crate::arrays::{Arrays, Whose, solid};
 use crate::entry::{Failure, entry, frangible_status};
@@ -34,7 +33,7 @@ pub(crate) static BREAKABLES: Registry<Kind> = Registry::new("a breakable");
 impl Kind {
     fn new(breakable: Breakable) -> Self {
         let asset = breakable.asset();
-        let (name, material) = (c_text(&asset.name), c_text(&asset.material.name));
+        let (name, material) = (c_text(&asset.name()), c_text(&asset.material().name));
         Self {
             name,
             material,
@@ -46,7 +45,7 @@ impl Kind {
 }
 
 fn made(asset: Asset) -> Result<frangible_breakable, Failure> {
-    let breakable = plain::kind(asset).map_err(Failure::input)?;
+    let breakable = Breakable::new(asset).map_err(Failure::input)?;
     let id = BREAKABLES.add(Kind::new(breakable));
     Ok(frangible_breakable { id })
 }
@@ -127,9 +126,9 @@ pub unsafe extern "C" fn frangible_breakable_about(
             supported: asset.is_supported().into(),
             name: kind.name.as_ptr(),
             material: kind.material.as_ptr(),
-            strength: asset.material.strength,
-            friction: asset.material.friction,
-            restitution: asset.material.restitution,
+            strength: asset.material().strength,
+            friction: asset.material().friction,
+            restitution: asset.material().restitution,
             ..Default::default()
         });
         Ok(())
@@ -147,7 +146,7 @@ pub unsafe extern "C" fn frangible_breakable_solid(
         let out = unsafe { Form::new(out, "out") }?;
         let kind = BREAKABLES.get(breakable.id)?;
         let asset = kind.breakable.asset();
-        out.fill(&solid(&asset.mass, asset.is_supported()));
+        out.fill(&solid(&asset.mass(), asset.is_supported()));
         Ok(())
     })
 }

@@ -3,16 +3,15 @@
 use std::ptr::null;
 
 use frangible::glam::{DMat3, DVec3, Vec3};
-use frangible::{Asset, Contact, FractureConfig, Material, Outcome, Striker, impact};
+use frangible::{Asset, Breakable, Contact, FractureConfig, Material, Outcome, Striker, impact};
 use frangible_c::*;
-use frangible_js::plain;
 
 use crate::{PANE, at_middle, ball, body, hit, masses, pane, report, sound, text};
 
 #[test]
 fn a_blow_gives_the_pieces_of_the_core_to_the_bit() {
     let asset = Asset::from_bytes(PANE).expect("a sound asset");
-    let direct = plain::kind(asset).expect("a sound kind").body(3);
+    let direct = Breakable::new(asset).expect("a sound kind").body(3);
     let steel = Material::preset("steel").expect("a preset");
     let striker = Striker::ball(&steel, 0.13, 0.0158);
     let point = Vec3::new(0.0, 0.0, 0.003);

@@ -90,7 +90,7 @@ fn save(body: &BakedBody, output: &Path, compact: bool) -> Result<String, Box<dy
         if change > MOST_CHANGE {
             return Err(format!(
                 "half precision would change the peak stress of a mode of `{}` by {:.0} %, as happens where walls are thin; remove --compact",
-                body.asset.name,
+                body.asset.name(),
                 100.0 * change
             )
             .into());
@@ -104,7 +104,7 @@ fn save(body: &BakedBody, output: &Path, compact: bool) -> Result<String, Box<dy
     } else {
         save_asset(&body.asset, output)?;
     }
-    let shapes = size_of_val(&*body.asset.modes.shapes) as f64;
+    let shapes = size_of_val(&*body.asset.modes().shapes) as f64;
     text += &row(
         "wrote",
         &format!(
@@ -126,7 +126,10 @@ fn quality(body: &BakedBody) -> String {
     let asset = &body.asset;
     let mut text = String::new();
     let mut row = |name: &str, value: String| text += &row(name, &value);
-    row("body", format!("{}, {}", asset.name, asset.material.name));
+    row(
+        "body",
+        format!("{}, {}", asset.name(), asset.material().name),
+    );
     if let Some(report) = &body.report {
         for (name, mesh) in [
             ("fracture mesh", &report.fracture),
@@ -154,11 +157,11 @@ fn quality(body: &BakedBody) -> String {
                 report.modes,
                 report.max_residual,
                 report.followed,
-                asset.modes.frequency(report.followed - 1)
+                asset.modes().frequency(report.followed - 1)
             ),
         );
         if asset.is_supported() {
-            let share = asset.supported.len() as f64 / report.fracture.nodes as f64;
+            let share = asset.supported().len() as f64 / report.fracture.nodes as f64;
             row("supports", format!("{:.1} % of the nodes", 100.0 * share));
         }
         row("collider", format!("{} convex cells", report.cells));
@@ -169,7 +172,7 @@ fn quality(body: &BakedBody) -> String {
             .collect();
         row("stages", format!("{} s", stages.join(", ")));
     }
-    row("mass", format!("{:.4} kg", asset.mass.mass));
+    row("mass", format!("{:.4} kg", asset.mass().mass));
     if let Some(off) = baked_off(body) {
         row("surface", off);
     }

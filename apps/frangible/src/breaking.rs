@@ -225,7 +225,7 @@ fn mesh_notes(scene: &Scene, baked: &[BakedBody]) -> Vec<String> {
 /// Volume of a body beside that of the closed surface that it was made from, in words, if that is known.
 pub(crate) fn baked_off(body: &BakedBody) -> Option<String> {
     let closed = body.report.as_ref()?.closed_volume?;
-    let off = 100.0 * (body.asset.mass.volume / closed - 1.0);
+    let off = 100.0 * (body.asset.mass().volume / closed - 1.0);
     Some(format!(
         "encloses {:.3} cm³, the body has {off:+.3} %",
         1e6 * closed
@@ -239,7 +239,7 @@ pub(crate) fn filled(open: &[bool], baked: &[BakedBody]) -> Vec<String> {
         let asset = &body.asset;
         format!(
             "{}: the surface is open and was filled as a solid of {:.3} kg; for a thin-walled body, give the wall thickness with --wall METRES",
-            asset.name, asset.mass.mass
+            asset.name(), asset.mass().mass
         )
     })
     .collect()
@@ -247,7 +247,7 @@ pub(crate) fn filled(open: &[bool], baked: &[BakedBody]) -> Vec<String> {
 
 /// Note on a body whose strength, toughness and density of weak points contradict each other.
 fn crowded_flaws(spec: &BodySpec, baked: &BakedBody) -> Option<String> {
-    let material = &baked.asset.material;
+    let material = baked.asset.material();
     let fields = Fields::of_material(material);
     let modulus = spec.weibull_modulus.unwrap_or(fields.weibull_modulus);
     let specimen = spec.specimen.unwrap_or(fields.specimen);
@@ -262,7 +262,7 @@ fn crowded_flaws(spec: &BodySpec, baked: &BakedBody) -> Option<String> {
     (depth > spacing).then(|| {
         format!(
             "{}: at the strength of `{}` a weak point is a flaw of {:.1} mm, but weak points lie only {:.1} mm apart; with weibull_modulus = 6, few of them are that weak",
-            baked.asset.name,
+            baked.asset.name(),
             material.name,
             1e3 * depth,
             1e3 * spacing

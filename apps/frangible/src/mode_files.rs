@@ -25,7 +25,7 @@ pub(crate) fn picture(
     use frangible_draw::{ModeSheetOptions, mode_sheet};
     use frangible_photo::encode_png;
 
-    let cells: Vec<_> = (0..count.min(asset.modes.count()))
+    let cells: Vec<_> = (0..count.min(asset.modes().count()))
         .map(|mode| cell(asset, mode, rotation))
         .collect();
     // Three rows for twelve, as wide as a page.
@@ -55,7 +55,7 @@ pub(crate) fn picture(_: &Asset, _: usize, _: Quat, _: Vec3) -> Result<Vec<u8>, 
 #[cfg(feature = "view")]
 fn cell(asset: &Asset, mode: usize, rotation: Quat) -> frangible_draw::ModeCell {
     let field = mode_on_fracture_mesh(asset, mode);
-    let nodes = &asset.fracture.positions;
+    let nodes = &asset.fracture().positions;
     let low = nodes.iter().fold(Vec3::INFINITY, |low, &p| low.min(p));
     let high = nodes
         .iter()
@@ -66,8 +66,8 @@ fn cell(asset: &Asset, mode: usize, rotation: Quat) -> frangible_draw::ModeCell 
     // Only nodes of the surface: those inside would count for the scale of the colours.
     let mut place = vec![u32::MAX; nodes.len()];
     let (mut positions, mut stresses) = (Vec::new(), Vec::new());
-    let mut triangles = Vec::with_capacity(asset.surface.triangles.len());
-    for triangle in &asset.surface.triangles {
+    let mut triangles = Vec::with_capacity(asset.surface().triangles.len());
+    for triangle in &asset.surface().triangles {
         triangles.push(triangle.map(|node| {
             let node = node as usize;
             if place[node] == u32::MAX {
@@ -91,7 +91,7 @@ fn cell(asset: &Asset, mode: usize, rotation: Quat) -> frangible_draw::ModeCell 
         positions,
         triangles,
         values: stresses.iter().map(|s| (s / full).min(1.0)).collect(),
-        caption: format!("{}   {} Hz", mode + 1, hertz(asset.modes.frequency(mode))),
+        caption: format!("{}   {} Hz", mode + 1, hertz(asset.modes().frequency(mode))),
         note: format!("largest {} MPa per mm", three_digits(per_millimetre)),
     }
 }
@@ -113,16 +113,16 @@ fn three_digits(value: f64) -> String {
 
 /// The elements that carry the modes, with all shapes and stresses.
 pub(crate) fn analysis_vtu(asset: &Asset) -> Result<Vec<u8>, ExportError> {
-    let cells = VtuCells::Quadratic(&asset.analysis.elements);
-    let fields = (0..asset.modes.count()).map(|i| mode_on_analysis_mesh(asset, i));
-    vtu(asset, &asset.analysis.nodes, cells, fields)
+    let cells = VtuCells::Quadratic(&asset.analysis().elements);
+    let fields = (0..asset.modes().count()).map(|i| mode_on_analysis_mesh(asset, i));
+    vtu(asset, &asset.analysis().nodes, cells, fields)
 }
 
 /// The mesh that carries cracks, with the same fields.
 pub(crate) fn fracture_vtu(asset: &Asset) -> Result<Vec<u8>, ExportError> {
-    let cells = VtuCells::Linear(&asset.fracture.tets);
-    let fields = (0..asset.modes.count()).map(|i| mode_on_fracture_mesh(asset, i));
-    vtu(asset, &asset.fracture.positions, cells, fields)
+    let cells = VtuCells::Linear(&asset.fracture().tets);
+    let fields = (0..asset.modes().count()).map(|i| mode_on_fracture_mesh(asset, i));
+    vtu(asset, &asset.fracture().positions, cells, fields)
 }
 
 /// Largest principal stress, in MPa meanwhile: of a light body's unit amplitude the cube of Pa overflows.
@@ -160,8 +160,8 @@ fn vtu(
         values: VtuValues::Scalars(values),
     });
     let point_data: Vec<VtuField<'_>> = vectors.chain(scalars).collect();
-    let frequencies: Vec<f64> = (0..asset.modes.count())
-        .map(|i| asset.modes.frequency(i))
+    let frequencies: Vec<f64> = (0..asset.modes().count())
+        .map(|i| asset.modes().frequency(i))
         .collect();
     write_vtu(&VtuMesh {
         points,

@@ -42,10 +42,10 @@ pub(crate) struct ModeReport {
 impl ModeReport {
     pub(crate) fn new(body: &BakedBody, files: Vec<String>, notes: Vec<String>) -> Self {
         let asset = &*body.asset;
-        let modes = &asset.modes;
+        let modes = asset.modes();
         let all = 0..modes.count();
         let damping_ratio =
-            |i: usize| modes.damping(i, &asset.material) / (2.0 * TAU * modes.frequency(i));
+            |i: usize| modes.damping(i, asset.material()) / (2.0 * TAU * modes.frequency(i));
         // Not the asset's own bound: that is taken amid the tetrahedra, and misses the skin of a thin plate.
         let peak = |i: usize| {
             let field = mode_on_fracture_mesh(asset, i);
@@ -55,18 +55,18 @@ impl ModeReport {
         };
         let free = (!asset.is_supported()).then_some(6);
         Self {
-            name: asset.name.clone(),
-            material: asset.material.name.clone(),
-            mass_kg: asset.mass.mass,
+            name: asset.name().to_owned(),
+            material: asset.material().name.clone(),
+            mass_kg: asset.mass().mass,
             supported: asset.is_supported(),
-            supported_nodes: asset.supported.len(),
+            supported_nodes: asset.supported().len(),
             rigid_motions: body.report.as_ref().map(|r| r.rigid_motions).or(free),
-            analysis_nodes: asset.analysis.nodes.len(),
-            analysis_elements: asset.analysis.elements.len(),
-            fracture_nodes: asset.fracture.positions.len(),
-            fracture_tets: asset.fracture.tets.len(),
+            analysis_nodes: asset.analysis().nodes.len(),
+            analysis_elements: asset.analysis().elements.len(),
+            fracture_nodes: asset.fracture().positions.len(),
+            fracture_tets: asset.fracture().tets.len(),
             largest_residual: body.report.as_ref().map(|r| r.max_residual),
-            strength_pa: asset.material.strength,
+            strength_pa: asset.material().strength,
             modes: modes.count(),
             frequencies_hz: all.clone().map(|i| modes.frequency(i)).collect(),
             damping_ratios: all.clone().map(damping_ratio).collect(),

@@ -230,30 +230,30 @@ impl BodyReport {
             .map(|b| Impact::new(b.time, &b.report, &b.contacts, None))
             .or_else(|| held.map(|h| Impact::new(h.time, &h.report, &h.contacts, Some(h.margin))));
         let blows = run.blows.iter().filter(|b| b.body == number);
-        let modes = asset.modes.count();
+        let modes = asset.modes().count();
         let breaks = || run.breaks.iter().filter(|b| b.body == number);
         Self {
             body: name.into(),
-            material: asset.material.name.clone(),
+            material: asset.material().name.clone(),
             broke: broken.is_some(),
-            fracture_nodes: asset.fracture.positions.len(),
-            fracture_tets: asset.fracture.tets.len(),
-            analysis_nodes: asset.analysis.nodes.len(),
-            analysis_elements: asset.analysis.elements.len(),
+            fracture_nodes: asset.fracture().positions.len(),
+            fracture_tets: asset.fracture().tets.len(),
+            analysis_nodes: asset.analysis().nodes.len(),
+            analysis_elements: asset.analysis().elements.len(),
             modes,
-            modes_followed: asset.modes.followed(),
+            modes_followed: asset.modes().followed(),
             first_frequencies_hz: (0..modes.min(4))
-                .map(|i| asset.modes.frequency(i))
+                .map(|i| asset.modes().frequency(i))
                 .collect(),
             largest_residual: baked.report.as_ref().map(|r| r.max_residual),
             impact,
             blows: blows.map(Blow::new).collect(),
             fragments: broken.map_or(1, |b| b.masses.len()),
-            mass_kg: asset.mass.mass,
-            fragment_mass_sum_kg: broken.map_or(asset.mass.mass, |b| b.masses.iter().sum()),
-            volume_m3: asset.mass.volume,
+            mass_kg: asset.mass().mass,
+            fragment_mass_sum_kg: broken.map_or(asset.mass().mass, |b| b.masses.iter().sum()),
+            volume_m3: asset.mass().volume,
             surface_volume_m3: baked.report.as_ref().and_then(|r| r.closed_volume),
-            fragment_volume_sum_m3: broken.map_or(asset.mass.volume, |b| b.volume),
+            fragment_volume_sum_m3: broken.map_or(asset.mass().volume, |b| b.volume),
             breaks_again: breaks().filter(|b| b.generation > 0).count(),
             pieces_at_end: 1 + breaks().map(|b| b.masses.len() - 1).sum::<usize>(),
             largest_fragments_kg: broken

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use frangible::{Asset, FractureConfig, Outcome, impact};
+use frangible::{Asset, Breakable, FractureConfig, Outcome, impact};
 use frangible_js::drawn::Drawn;
 use frangible_js::plain;
 
@@ -33,7 +33,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut lines = Vec::new();
     for (name, row) in blows() {
         let asset = Asset::load(bodies.join(format!("{name}.frangible")))?;
-        let kind = plain::kind(asset)?;
+        let kind = Breakable::new(asset)?;
         // The third outcome, as in the test: a body's first break computes data that its later ones reuse.
         let mut outcome = None;
         for _ in 0..3 {

@@ -46,17 +46,17 @@ impl Kind {
     /// A file that is not a baked body, is truncated or damaged, or has another version.
     #[wasm_bindgen(constructor)]
     pub fn new(bytes: &[u8]) -> Result<Kind, JsError> {
-        Ok(Self(plain::kind(Asset::from_bytes(bytes)?)?))
+        Ok(Self(Breakable::new(Asset::from_bytes(bytes)?)?))
     }
 
     /// Name, material, mass, inertia, volume, strength, supports, mesh to draw and convex parts.
     pub fn about(&self) -> Object {
         let asset = self.0.asset();
         let object = Object::new();
-        set(&object, "name", asset.name.as_str());
-        set(&object, "material", asset.material.name.as_str());
-        masses(&object, &asset.mass);
-        set(&object, "strength", asset.material.strength);
+        set(&object, "name", asset.name());
+        set(&object, "material", asset.material().name.as_str());
+        masses(&object, &asset.mass());
+        set(&object, "strength", asset.material().strength);
         set(&object, "supported", asset.is_supported());
         set(&object, "geometry", drawn(&Drawn::whole(asset)));
         set(&object, "hulls", hulls(hulls_of_body(asset)));

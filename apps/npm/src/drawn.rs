@@ -40,17 +40,17 @@ pub struct Group {
 /// The surface that the author of a body drew, if there is one: its name, materials and images are also those of its pieces.
 #[must_use]
 pub fn authored(asset: &Asset) -> Option<&RenderSurface> {
-    asset.root().render.as_ref()
+    asset.root().render()
 }
 
 impl Drawn {
     /// The surface of a whole body, in its body frame.
     #[must_use]
     pub fn whole(asset: &Asset) -> Self {
-        let Some(surface) = &asset.render else {
+        let Some(surface) = &asset.render() else {
             let positions = asset.surface_positions();
             let mut sheet = Sheet::new(positions.len(), Vec3::ZERO);
-            let corners = asset.surface.triangles.iter().zip(&asset.surface.normals);
+            let corners = asset.surface().triangles.iter().zip(&asset.surface().normals);
             for (triangle, normals) in corners {
                 sheet.add(positions, *triangle, *normals, None);
             }

@@ -15,7 +15,7 @@ const TOLERANCE: f32 = 3e-3;
 /// Convex parts of a whole body, points in its body frame, m.
 #[must_use]
 pub fn hulls_of_body(asset: &Asset) -> Vec<Vec<f32>> {
-    let cells = asset.cells.iter().map(|cell| &cell.points[..]);
+    let cells = asset.cells().iter().map(|cell| &cell.points[..]);
     hulls(cells.collect(), asset.surface_positions())
 }
 

@@ -31,15 +31,6 @@ fn double(numbers: &[f64]) -> DVec3 {
     DVec3::new(numbers[0], numbers[1], numbers[2])
 }
 
-/// Makes a kind of body with the scatter of strength of its material.
-///
-/// # Errors
-/// An asset with inconsistent arrays or an invalid number.
-pub fn kind(asset: Asset) -> Result<Breakable, InputError> {
-    let fields = Fields::of_material(&asset.material);
-    Breakable::new(asset)?.with_fields(fields)
-}
-
 /// Converts rows of [`CONTACT`] numbers to contacts in the body frame.
 #[must_use]
 pub fn contacts(rows: &[f64]) -> Vec<Contact> {
@@ -180,7 +171,7 @@ pub fn motions_held(
     let body = Placed::new(asset, pose, motion);
     let mass = MassProperties {
         centre: DVec3::ZERO,
-        ..asset.mass
+        ..asset.mass()
     };
     let (mut whole, mut by) = (body.part(&mass, true), striker_of(striker));
     take_held(&mut whole, &mut by, &body.pushes(report));

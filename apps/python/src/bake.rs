@@ -117,7 +117,7 @@ pub(crate) fn bake<'py>(
                 ..BakeSpec::new(name, part.body.shape, material.clone())
             };
             spec.modes = modes.unwrap_or(spec.modes);
-            let baked = frangible_bake::bake(&spec, &mut progress).map_err(refused)?;
+            let baked = frangible_bake::bake_with(&spec, &mut progress).map_err(refused)?;
             done.push((baked, part.body.similarity));
         }
         Ok(done)
@@ -125,11 +125,13 @@ pub(crate) fn bake<'py>(
     if let Some(error) = stopped {
         return Err(error);
     }
-    let bodies = done?.into_iter().map(|((asset, report), similarity)| {
-        let Similarity { scale, shift } = similarity;
-        let offset = numbers(py, (shift - report.centre).to_array());
-        Ok((Kind::new(asset)?, scale, offset))
-    });
+    let bodies = done?
+        .into_iter()
+        .map(|(frangible_bake::Baked { asset, report }, similarity)| {
+            let Similarity { scale, shift } = similarity;
+            let offset = numbers(py, (shift - report.centre).to_array());
+            Ok((Kind::new(asset)?, scale, offset))
+        });
     bodies.collect()
 }
 

@@ -48,7 +48,7 @@ pub(crate) struct Kind(Made);
 
 impl Kind {
     pub(crate) fn new(asset: Asset) -> PyResult<Self> {
-        Ok(Self(Made::Whole(plain::kind(asset).map_err(refused)?)))
+        Ok(Self(Made::Whole(Breakable::new(asset).map_err(refused)?)))
     }
 
     pub(crate) fn piece(body: Body) -> Self {
@@ -124,20 +124,20 @@ impl Kind {
     fn about<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let asset = self.asset();
         let about = PyDict::new(py);
-        about.set_item("name", &asset.name)?;
-        about.set_item("material", &asset.material.name)?;
-        about.set_item("strength", asset.material.strength)?;
+        about.set_item("name", asset.name())?;
+        about.set_item("material", &asset.material().name)?;
+        about.set_item("strength", asset.material().strength)?;
         about.set_item("supported", asset.is_supported())?;
-        let piece = asset.portion.as_ref();
-        let tets = piece.map_or(asset.fracture.tets.len(), |p| p.tets().len());
+        let piece = asset.portion();
+        let tets = piece.map_or(asset.fracture().tets.len(), |p| p.tets().len());
         about.set_item("tetrahedra", tets)?;
         let nodes = asset.surface_positions().iter().flat_map(|p| p.to_array());
         about.set_item("vertices", numbers(py, nodes))?;
-        let triangles = asset.surface.triangles.as_flattened();
+        let triangles = asset.surface().triangles.as_flattened();
         about.set_item("faces", PyArray1::from_slice(py, triangles))?;
-        let frequencies = (0..asset.modes.count()).map(|i| asset.modes.frequency(i));
+        let frequencies = (0..asset.modes().count()).map(|i| asset.modes().frequency(i));
         about.set_item("frequencies", numbers(py, frequencies))?;
-        masses(&about, &asset.mass)?;
+        masses(&about, &asset.mass())?;
         Ok(about)
     }
 
@@ -165,7 +165,7 @@ impl Kind {
 
     /// The four vertices of each tetrahedron.
     fn tets<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<u32>>> {
-        let mesh = &self.whole("cannot be weakened")?.asset().fracture;
+        let mesh = &self.whole("cannot be weakened")?.asset().fracture();
         Ok(PyArray1::from_slice(py, mesh.tets.as_flattened()))
     }
 
@@ -324,7 +324,7 @@ fn stresses(
     let mut config = FractureConfig::default();
     // Also where bounds say that nothing breaks.
     config.culling = false;
-    let faces = body.asset().surface.triangles.len();
+    let faces = body.asset().surface().triangles.len();
     let vibration = match Vibration::begin(body, contacts, &config)? {
         Stage::Vibrates(vibration) => vibration,
         Stage::Held(_) => return Ok((vec![0.0], vec![0.0; faces])),

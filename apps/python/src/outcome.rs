@@ -44,7 +44,7 @@ impl Impact {
 impl Impact {
     /// Time and place at which each crack starts, or at which an old one goes on, in the order of time, with the number of tetrahedra that it cuts.
     fn starts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
-        let (mesh, origin) = (&self.body.asset().fracture, self.body.origin());
+        let (mesh, origin) = (self.body.asset().fracture(), self.body.origin());
         let cracks = self.fracture.report.arrivals.iter();
         let mut starts: Vec<(f64, u32, usize)> = cracks
             .filter_map(|cuts| cuts.first().map(|&(tet, time)| (time, tet, cuts.len())))

@@ -52,7 +52,7 @@ impl LiveWorld {
         let specs = bodies.iter().zip(&kinds).map(|(body, kind)| {
             // The body is baked already: its source is not used.
             let source = BodySource::Asset(PathBuf::from(&body.name));
-            let material = kind.asset().material.clone();
+            let material = kind.asset().material().clone();
             BodySpec {
                 place: Place::Centre(body.position.into()),
                 rotation: Quat::from_array(body.rotation),

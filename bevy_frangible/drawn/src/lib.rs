@@ -110,7 +110,7 @@ pub fn kind(
         supports,
         ..BakeSpec::for_games(material, shape, Material::preset(material)?)?
     };
-    let asset = FrangibleAsset::new(bake(&spec, &mut |_| {})?.0)?;
+    let asset = FrangibleAsset::new(bake(&spec)?)?;
     Ok(app
         .world_mut()
         .resource_mut::<Assets<FrangibleAsset>>()

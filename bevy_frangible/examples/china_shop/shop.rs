@@ -74,8 +74,8 @@ fn baked(name: &str, shape: Shape) -> Result<(FrangibleAsset, f32), Box<dyn std:
         analysis: Some(shape.size_for(1500.0)?),
         ..BakeSpec::new(name, shape, Material::preset("porcelain")?)
     };
-    let (asset, _) = bake(&spec, &mut |_| {})?;
-    let lowest = asset.fracture.positions.iter().map(|p| p.z);
+    let asset = bake(&spec)?;
+    let lowest = asset.fracture().positions.iter().map(|p| p.z);
     let foot = -lowest.fold(f32::INFINITY, f32::min);
     Ok((FrangibleAsset::new(asset)?, foot))
 }

@@ -26,11 +26,7 @@ pub fn lost(scene: &Scene, seed: u64) -> Result<Option<f64>, InputError> {
     let place = body
         .nearest_on_surface(start.at - Vec3::Z * start.at.z * 0.9)
         .position;
-    let by = Properties {
-        curvature_radius: radius,
-        inverse_effective_mass: (1.0 / mass) as f32,
-        ..Properties::fixed(&striker.material)
-    };
+    let by = Properties::ball(&striker.material, mass, f64::from(radius));
     let contact = Contact::strike(place, start.velocity / speed, speed, by);
     let normal = contact.normal.as_dvec3();
     let point = place.as_dvec3();
@@ -38,7 +34,7 @@ pub fn lost(scene: &Scene, seed: u64) -> Result<Option<f64>, InputError> {
     let centre = point - normal * f64::from(radius);
     let velocity = normal * f64::from(speed);
     let mut ball = [Rigid::free(mass, inertia, [centre, velocity, DVec3::ZERO])];
-    let still = |m: &bevy_frangible::frangible::internals::MassProperties, centre: DVec3| {
+    let still = |m: &bevy_frangible::frangible::MassProperties, centre: DVec3| {
         Rigid::free(m.mass, m.inertia, [centre, DVec3::ZERO, DVec3::ZERO])
     };
     let outcome = impact(&body, &[contact], &FractureConfig::default())?;
@@ -60,7 +56,7 @@ pub fn lost(scene: &Scene, seed: u64) -> Result<Option<f64>, InputError> {
         fly_through(fracture, place, pieces, by);
         ball = [by[0]];
     } else {
-        let mut whole = still(&body.asset().mass, DVec3::ZERO);
+        let mut whole = still(&body.asset().mass(), DVec3::ZERO);
         take_held(&mut whole, &mut ball, &pushes);
     }
     Ok(Some((velocity - ball[0].linear).dot(normal)))

@@ -1,5 +1,6 @@
 //! A scene in a world of Rapier.
 
+use frangible_rapier::rapier3d::dynamics::RigidBodyBuilder;
 use std::f32::consts::PI;
 
 use bevy_frangible::frangible::glam::DVec3;
@@ -32,7 +33,12 @@ pub fn run(scene: &Scene, seed: u64, rate: f32) -> Result<Outcome, WorldError> {
         world.insert_fixed_half_space(Vector::ZERO, Vector::Y, surface)?;
     }
     let (body, start) = (scene.kind.body(seed), &scene.start);
-    world.insert_breakable(body, pose(start), start.velocity, Vector::ZERO)?;
+    world.insert(
+        body,
+        RigidBodyBuilder::dynamic()
+            .pose(pose(start))
+            .linvel(start.velocity),
+    )?;
     let striker = match &scene.striker {
         None => None,
         Some(Striker {

@@ -2,9 +2,9 @@
 
 use avian3d::prelude::*;
 use bevy::prelude::*;
+use frangible::MassProperties;
 use frangible::Material;
 use frangible::glam::DQuat;
-use frangible::internals::MassProperties;
 use frangible::internals::mesh::symmetric_eigen;
 
 use super::colliders::{ColliderDetail, of_fragment, whole};
@@ -44,11 +44,11 @@ pub(super) fn give_collider(
     entity.insert_if_new((
         kind,
         Carries::default(),
-        surface(&baked.material),
-        MadeOf(baked.material.clone()),
+        surface(baked.material()),
+        MadeOf(baked.material().clone()),
     ));
     entity.insert((
-        masses(&baked.mass),
+        masses(&baked.mass()),
         before | ActiveCollisionHooks::MODIFY_CONTACTS,
     ));
     match known {

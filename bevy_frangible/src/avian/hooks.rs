@@ -160,13 +160,11 @@ impl<Inner: SystemParam + 'static> FrangibleHooks<'_, '_, Inner> {
             .iter()
             .map(|touch| {
                 let shared = self.shared(other, touch.anchors[1], touch.normal);
-                let striker = Striker {
-                    inverse_effective_mass: shared.map_or(0.0, |s| {
-                        s.velocity.length_squared() + s.spin.length_squared()
-                    }),
-                    shared,
-                    ..striker.clone()
-                };
+                let mut striker = striker.clone();
+                striker.inverse_effective_mass = shared.map_or(0.0, |s| {
+                    s.velocity.length_squared() + s.spin.length_squared()
+                });
+                striker.shared = shared;
                 let at = into(to_body * touch.anchors[0]);
                 let toward = into(to_body * touch.normal);
                 Contact::strike(at, toward, touch.approach, striker)
@@ -225,16 +223,14 @@ impl<Inner: SystemParam + 'static> FrangibleHooks<'_, '_, Inner> {
     fn striker(&self, other: Option<Entity>, collider: Entity, ball: Option<f32>) -> Striker {
         let made_of = |entity: Entity| self.made_of.get(entity).ok();
         let material = made_of(collider).or_else(|| made_of(other?));
-        let striker = material.map_or_else(Striker::rigid, |made| Striker::fixed(&made.0));
+        let mut striker = material.map_or_else(Striker::rigid, |made| Striker::fixed(&made.0));
         let is_body = |e: Entity| self.bodies.contains(e) || self.pieces.contains(e);
-        Striker {
-            // A body with edges strikes with one of them.
-            curvature_radius: ball.unwrap_or(match other.is_some_and(is_body) {
-                true => Striker::EDGE_RADIUS,
-                false => f32::INFINITY,
-            }),
-            ..striker
+        // A body with edges strikes with one of them.
+        let edge = other.is_some_and(is_body).then_some(Striker::EDGE_RADIUS);
+        if let Some(radius) = ball.or(edge) {
+            striker.curvature_radius = radius;
         }
+        striker
     }
 
     /// Mass with which a striker resists at a contact. None for a striker that is not dynamic.

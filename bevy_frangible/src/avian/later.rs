@@ -9,7 +9,7 @@ use std::sync::PoisonError;
 
 use avian3d::prelude::*;
 use bevy::prelude::*;
-use frangible::internals::BodyState;
+use frangible::BodyState;
 use frangible::{Body, Contact, FractureConfig, Outcome, impact};
 
 use super::colliders::{ColliderDetail, of_fragment};
@@ -112,7 +112,7 @@ impl Docket {
             let Ok(body) = bodies.get(blow.body) else {
                 continue;
             };
-            let cost = body.0.asset().embedding.tets.len().max(1);
+            let cost = body.0.asset().embedding().tets.len().max(1);
             if self.cases.iter().any(|case| case.blow.body == blow.body) {
                 later.push_back(blow);
             } else if work == 0 || work.saturating_add(cost) <= budget {

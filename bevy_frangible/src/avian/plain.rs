@@ -3,8 +3,8 @@
 use avian3d::prelude::*;
 use bevy::ecs::query::QueryData;
 use bevy::prelude::*;
+use frangible::MassProperties;
 use frangible::glam::{self, DMat3, DVec3};
-use frangible::internals::MassProperties;
 use frangible::internals::rigid::Rigid;
 
 use super::Moving;

@@ -191,7 +191,7 @@ fn breaks(broke: On<Broke>, time: Res<Time<Fixed>>, mut heard: ResMut<Heard>) {
     let Some(asset) = heard.troupe.asset(broke.entity) else {
         return;
     };
-    let material = asset.material.clone();
+    let material = asset.material().clone();
     heard
         .troupe
         .born(&broke.fragments, &broke.fracture, &material);

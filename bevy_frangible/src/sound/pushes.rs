@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use avian3d::prelude::*;
 use bevy::prelude::*;
 use frangible::Material;
-use frangible_sound::{EngineStep, Motion, Push};
+use frangible_sound::{EngineMotion, EngineStep, Push};
 
 use super::Heard;
 use crate::meshes::into;
@@ -142,7 +142,7 @@ fn push(
 }
 
 /// Motion of each dynamic body.
-fn motions(bodies: &Query<Moving>) -> BTreeMap<u64, Motion> {
+fn motions(bodies: &Query<Moving>) -> BTreeMap<u64, EngineMotion> {
     let moving = bodies.iter().filter(|(_, kind, ..)| kind.is_dynamic());
     let motion = moving.map(|(entity, _, at, turn, linear, angular, _, centre)| {
         let motion = [linear.0, angular.0, at.0 + turn.0 * centre.0];

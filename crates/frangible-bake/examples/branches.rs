@@ -8,7 +8,7 @@ use frangible::internals::blow::Blow;
 use frangible::internals::contact::modal_load;
 use frangible::internals::stress::{Symmetric3, largest_eigenvalue, largest_eigenvalue_bound};
 use frangible::{Asset, Breakable, Contact, FractureConfig, Material, Striker};
-use frangible_bake::{BakeSpec, Shape, bake, stress_rows};
+use frangible_bake::{BakeSpec, Baked, Shape, bake_with, stress_rows};
 
 type Failure = Box<dyn std::error::Error>;
 
@@ -64,20 +64,20 @@ fn measure(subject: &Subject, kept: usize, counts: &[usize]) -> Result<(), Failu
         modes: kept,
         ..BakeSpec::new(subject.shape, shape, material)
     };
-    let (asset, report) = bake(&spec, &mut |_| {})?;
+    let Baked { asset, report } = bake_with(&spec, |_| {})?;
     println!(
         "\n{}: {:.2} kg, {} tetrahedra, {} elements, {} modes from {:.0} to {:.0} Hz, {} followed by choice",
         subject.shape,
         report.mass,
-        asset.fracture.tets.len(),
-        asset.analysis.elements.len(),
+        asset.fracture().tets.len(),
+        asset.analysis().elements.len(),
         kept,
-        asset.modes.frequency(0),
-        asset.modes.frequency(kept - 1),
+        asset.modes().frequency(0),
+        asset.modes().frequency(kept - 1),
         report.followed
     );
     let frequencies: Vec<String> = (0..kept)
-        .map(|i| format!("{:.0}", asset.modes.frequency(i)))
+        .map(|i| format!("{:.0}", asset.modes().frequency(i)))
         .collect();
     println!("Hz: {}", frequencies.join(" "));
     println!(
@@ -94,7 +94,7 @@ fn measure(subject: &Subject, kept: usize, counts: &[usize]) -> Result<(), Failu
         );
         for (ball, striker, speed) in balls()? {
             let contact = Contact::strike(at, hit.toward.normalize(), speed, striker);
-            let body = Breakable::new(asset.clone())?.body(1);
+            let body = Breakable::uniform(asset.clone())?.body(1);
             let touched = modal_load(&body, [&contact]).touches[0].contact.point;
             let places = places(&asset, touched, root);
             let truth = peaks(&asset, &contact, kept, true, &places)?;
@@ -157,9 +157,9 @@ struct Place {
 }
 
 fn places(asset: &Asset, contact: Vec3, root: Vec3) -> Vec<Place> {
-    let mesh = &asset.fracture;
+    let mesh = asset.fracture();
     let tets: Vec<u32> = {
-        let mut all = asset.surface.tets.clone();
+        let mut all = asset.surface().tets.clone();
         all.sort_unstable();
         all.dedup();
         all
@@ -191,15 +191,15 @@ fn peaks(
     places: &[Place],
 ) -> Result<Found, Failure> {
     let mut asset = asset.clone();
-    let kept = asset.modes.count();
-    asset.modes.residual_modes = kept - followed;
-    let body = Breakable::new(asset)?.body(1);
+    let kept = asset.modes().count();
+    asset.parts_mut().modes.residual_modes = kept - followed;
+    let body = Breakable::uniform(asset)?.body(1);
     let mut config = FractureConfig::default();
     (config.residual, config.near_field) = (residual, None);
     let blow = Blow::new(&body, std::slice::from_ref(contact), &config)?.ok_or("no blow")?;
     let report = blow.reports()[0].clone();
     let load = modal_load(&body, [contact]);
-    let modes = &body.asset().modes;
+    let modes = body.asset().modes();
     let still: Vec<f32> = (followed..kept)
         .map(|i| match residual {
             true => (load.touches[0].modal_shape[i] / modes.eigenvalues[i]) as f32,

@@ -31,10 +31,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("|---|---|---|---|---|---|");
     for spec in specs {
         let start = Instant::now();
-        let (asset, _) = bake(&spec, &mut |_| {})?;
+        let asset = bake(&spec)?;
         let baked = start.elapsed().as_secs_f64();
-        let kind = Breakable::new(asset)?;
-        let (tets, modes) = (kind.asset().fracture.tets.len(), spec.modes);
+        let kind = Breakable::uniform(asset)?;
+        let (tets, modes) = (kind.asset().fracture().tets.len(), spec.modes);
         let mut times = breaks(&kind)?;
         times.sort_by(f64::total_cmp);
         let broke = times.len();
@@ -52,7 +52,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 /// Times of the blows that break a glass, s, at places all over its surface, each with weak points of its own.
 fn breaks(kind: &Breakable) -> Result<Vec<f64>, Box<dyn Error>> {
     let config = FractureConfig::default();
-    let surface = &kind.asset().surface;
+    let surface = kind.asset().surface();
     let mut times = Vec::new();
     for k in 0..PLACES {
         let triangle = (k * surface.triangles.len() + surface.triangles.len() / 2) / PLACES;

@@ -3,7 +3,7 @@
 //! `cargo run --release -p frangible-bake --example modes_kept [MODES …]`
 
 use frangible::Material;
-use frangible_bake::{BakeSpec, Shape, bake};
+use frangible_bake::{BakeSpec, Baked, Shape, bake_with};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let asked: Vec<usize> = std::env::args()
@@ -33,7 +33,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 modes,
                 ..BakeSpec::new(name, shape.clone(), Material::preset(material)?)
             };
-            let (asset, report) = bake(&spec, &mut |_| {})?;
+            let Baked { asset, report } = bake_with(&spec, |_| {})?;
             let of = |stage: &str| -> f64 {
                 let found = report.seconds.iter().find(|(s, _)| s.to_string() == stage);
                 found.map_or(0.0, |s| s.1)
@@ -42,8 +42,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             println!(
                 "| {name} | {modes} | {} | {:.1} | {:.1} | {:.2} | {:.2} | {whole:.2} | {:.1} |",
                 report.followed,
-                1e-3 * asset.modes.frequency(modes - 1),
-                1e-3 * asset.modes.frequency(report.followed - 1),
+                1e-3 * asset.modes().frequency(modes - 1),
+                1e-3 * asset.modes().frequency(report.followed - 1),
                 of("finding modes"),
                 of("modes to follow"),
                 1e-6 * asset.to_bytes().len() as f64

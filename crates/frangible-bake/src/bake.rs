@@ -9,14 +9,15 @@
 use std::ops::ControlFlow;
 
 use frangible::glam::DVec3;
-use frangible::internals::asset::RenderSurface;
+use frangible::internals::asset::{AssetParts, RenderSurface};
 use frangible::internals::modal::ModalBasis;
 use frangible::internals::stress::StressBounds;
 use frangible::internals::{MassProperties, TetMesh};
-use frangible::{Asset, InputError, Material};
+use frangible::{Asset, InputError};
 use frangible_mesh::{TetReport, VolumeAim};
 use web_time::Instant;
 
+use crate::MOST_MODES;
 use crate::analysis::Analysis;
 use crate::cancel::CancelToken;
 use crate::cells::convex_cells;
@@ -24,106 +25,47 @@ use crate::eigen::lowest_supported_modes;
 use crate::error::BakeError;
 use crate::fem::Elasticity;
 use crate::followed::followed;
-use crate::groups::Group;
 use crate::mesh::BodyMesh;
 use crate::report::{BakeReport, MeshReport, Progress, Stage};
-use crate::shapes::{self, MeshSize, Shape, SolidShape};
-use crate::supports::{Holder, Support, check_groups, check_supports};
+use crate::shapes::{self, Shape, SolidShape};
+use crate::spec::BakeSpec;
+use crate::supports::{Holder, check_groups, check_supports};
 use crate::surface::{CREASE, SOLID_CREASE, outer_surface};
 use crate::walls::walls;
-use crate::{MOST_MODES, USUAL_MODES};
 
 /// Share of the meshing before a solid is covered by elements.
 const MESHING: f64 = 0.75;
 
-/// Settings of a bake.
+/// An asset and the report of its bake.
 #[derive(Clone, Debug)]
-pub struct BakeSpec {
-    /// Name of the asset, shown in reports.
-    pub name: String,
-    /// Geometry.
-    pub shape: Shape,
-    /// Material; only E, ν and ρ affect the modes, the other values are stored in the asset.
-    pub material: Material,
-    /// Element size of the analysis mesh; `None`: about 3 000 elements (5 000 for thin walls). For a solid, the size sets the number of elements
-    /// of the lattice, from the volume of the solid.
-    pub analysis: Option<MeshSize>,
-    /// Element size of the fracture mesh; `None`: about 42 000 elements.
-    pub fracture: Option<MeshSize>,
-    /// Number of vibration modes of the asset, 1 to [`MOST_MODES`], default [`USUAL_MODES`]. More modes make the stress around a sharp impact
-    /// more accurate, and cost proportional memory and more than proportional bake time.
-    pub modes: usize,
-    /// Number of the lowest modes that are integrated through time during a blow, 1 or more; the others respond statically, which costs no
-    /// time steps. Default `None`: determined by trial blows, as the smallest number beyond which more modes change no peak tension by 3 %
-    /// under a hard blow; all modes if there are 60 or fewer.
-    pub followed: Option<usize>,
-    /// Random seed for the irregularity of the fracture mesh, default 1.
-    pub seed: u64,
-    /// Supports of the body, default none. The asset gets the modes of the supported body and the list of its supported nodes.
-    pub supports: Vec<Support>,
-    /// Named parts of the shape, for supports by name; default none. [`import_mesh`](crate::import_mesh) reads them from a file.
-    pub groups: Vec<Group>,
-    /// The authored surface, m, in the frame of the shape; stored in the asset for rendering.
-    pub render: Option<RenderSurface>,
-    /// Token with which another thread can cancel the bake.
-    pub cancel: CancelToken,
+pub struct Baked {
+    /// The asset.
+    pub asset: Asset,
+    /// Report of the bake: meshes, frequencies, times, and the position of the body frame in the frame of the shape.
+    pub report: BakeReport,
 }
-
-impl BakeSpec {
-    /// Makes a specification with default sizes, modes and seed.
-    #[must_use]
-    pub fn new(name: impl Into<String>, shape: Shape, material: Material) -> Self {
-        Self {
-            name: name.into(),
-            shape,
-            material,
-            analysis: None,
-            fracture: None,
-            modes: USUAL_MODES,
-            followed: None,
-            seed: 1,
-            supports: Vec::new(),
-            groups: Vec::new(),
-            render: None,
-            cancel: CancelToken::default(),
-        }
-    }
-
-    /// Makes a specification for games: a fracture mesh of about 1 500 tetrahedra and 40 modes, so that a break takes about 20 ms instead of
-    /// 160. Cracks are coarser than with [`BakeSpec::new`].
-    ///
-    /// # Errors
-    /// A shape without volume; the error names the invalid number or station.
-    pub fn for_games(
-        name: impl Into<String>,
-        shape: Shape,
-        material: Material,
-    ) -> Result<Self, BakeError> {
-        Ok(Self {
-            fracture: Some(shape.size_for(GAME_TETS)?),
-            modes: GAME_MODES,
-            ..Self::new(name, shape, material)
-        })
-    }
-}
-
-/// Tetrahedra of a body for games, about.
-const GAME_TETS: f64 = 1500.0;
-
-/// Modes of a body for games.
-const GAME_MODES: usize = 40;
 
 /// Bakes an asset: makes the two meshes, computes the vibration modes, and maps the meshes to each other.
 ///
-/// The body frame has its origin at the centre of mass of the fracture mesh and the axes of the shape.
+/// The body frame has its origin at the centre of mass of the fracture mesh and the axes of the shape. [`bake_with`] also returns a report.
 ///
 /// # Errors
 /// The first invalid number, station, mode or point, with a hint how to fix it; [`BakeError::Cancelled`] after a cancellation by
 /// [`BakeSpec::cancel`].
-pub fn bake(
-    spec: &BakeSpec,
-    progress: &mut dyn FnMut(Progress),
-) -> Result<(Asset, BakeReport), BakeError> {
+pub fn bake(spec: &BakeSpec) -> Result<Asset, BakeError> {
+    Ok(bake_with(spec, |_| {})?.asset)
+}
+
+/// Bakes an asset like [`bake()`], calls `progress` at every advance, and also returns the report of the bake.
+///
+/// # Errors
+/// The errors of [`bake()`].
+pub fn bake_with(spec: &BakeSpec, mut progress: impl FnMut(Progress)) -> Result<Baked, BakeError> {
+    check(spec)?;
+    baked(spec, &mut progress)
+}
+
+fn check(spec: &BakeSpec) -> Result<(), BakeError> {
     spec.material.validate().map_err(InputError::from)?;
     if spec.modes == 0 {
         return Err(BakeError::Modes {
@@ -146,7 +88,10 @@ pub fn bake(
         });
     }
     check_supports(&spec.supports)?;
-    check_groups(&spec.supports, &spec.groups)?;
+    check_groups(&spec.supports, &spec.groups)
+}
+
+fn baked(spec: &BakeSpec, progress: &mut dyn FnMut(Progress)) -> Result<Baked, BakeError> {
     let mut clock = Clock {
         started: Instant::now(),
         seconds: Vec::new(),
@@ -239,7 +184,7 @@ pub fn bake(
         eigenvalues: modes.eigenvalues.clone(),
         ..ModalBasis::default()
     };
-    let mut asset = Asset {
+    let mut asset = Asset::from_parts(AssetParts {
         name: spec.name.clone(),
         material: spec.material.clone(),
         analysis: analysis.stored(),
@@ -254,13 +199,13 @@ pub fn bake(
         supported,
         render: spec.render.as_ref().map(|r| moved(r, -centre)),
         portion: None,
-    }
+    })
     .restressed();
 
     clock.enter(Stage::Followed)?;
-    let kept = asset.modes.count();
+    let kept = asset.modes().count();
     let follow = spec.followed.unwrap_or_else(|| followed(&asset));
-    asset.modes.residual_modes = kept - follow;
+    asset.parts_mut().modes.residual_modes = kept - follow;
 
     let report = BakeReport {
         analysis: analysis.report(&fine),
@@ -282,7 +227,7 @@ pub fn bake(
         mode_seconds: modes.seconds,
     };
     asset.validate()?;
-    Ok((asset, report))
+    Ok(Baked { asset, report })
 }
 
 /// The fine mesh in the frame of the shape, and the elements that are to carry its modes.

@@ -2,36 +2,49 @@
 
 use std::path::Path;
 
-use frangible::{Asset, Material};
+use frangible::Material;
 use frangible_mesh::read_mesh;
 
-use crate::bake::{BakeSpec, bake};
+use crate::bake::{Baked, bake_with};
 use crate::error::BakeError;
 use crate::import::{ImportOptions, import_parts};
-use crate::report::{BakeReport, Progress};
+use crate::report::Progress;
+use crate::spec::BakeSpec;
 
 /// Reads a mesh file and bakes each of its parts, in the order of the file. An asset has the name of its part, or of the file if that is one
-/// part. The body frame of an asset has its origin at [`BakeReport::centre`] in the frame of the file, which places the parts to each other.
+/// part. The body frame of an asset has its origin at [`BakeReport::centre`](crate::BakeReport::centre) in the frame of the file, which places the parts to each other.
 ///
 /// ```no_run
 /// use frangible::Material;
 /// use frangible_bake::{ImportOptions, bake_file};
 ///
 /// let porcelain = Material::preset("porcelain")?;
-/// for (asset, report) in bake_file("lamp.glb", &porcelain, &ImportOptions::default(), &mut |_| {})? {
-///     println!("{}: {:.3} kg, at {}", asset.name, report.mass, report.centre);
+/// for part in bake_file("lamp.glb", &porcelain, &ImportOptions::default())? {
+///     println!("{}: {:.3} kg, at {}", part.asset.name(), part.report.mass, part.report.centre);
 /// }
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
 /// # Errors
-/// A file that cannot be read, and the errors of [`import_parts`] and [`bake()`].
+/// A file that cannot be read, and the errors of [`import_parts`] and [`bake()`](crate::bake()).
 pub fn bake_file(
     path: impl AsRef<Path>,
     material: &Material,
     options: &ImportOptions,
-    progress: &mut dyn FnMut(Progress),
-) -> Result<Vec<(Asset, BakeReport)>, BakeError> {
+) -> Result<Vec<Baked>, BakeError> {
+    bake_file_with(path, material, options, |_| {})
+}
+
+/// Bakes a file like [`bake_file`], and calls `progress` at every advance of a part.
+///
+/// # Errors
+/// The errors of [`bake_file`].
+pub fn bake_file_with(
+    path: impl AsRef<Path>,
+    material: &Material,
+    options: &ImportOptions,
+    mut progress: impl FnMut(Progress),
+) -> Result<Vec<Baked>, BakeError> {
     let path = path.as_ref();
     let mesh = read_mesh(path).map_err(|error| BakeError::File {
         path: path.to_path_buf(),
@@ -50,7 +63,7 @@ pub fn bake_file(
             render: part.body.render,
             ..BakeSpec::new(name, part.body.shape, material.clone())
         };
-        baked.push(bake(&spec, progress)?);
+        baked.push(bake_with(&spec, &mut progress)?);
     }
     Ok(baked)
 }

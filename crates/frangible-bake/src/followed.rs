@@ -62,17 +62,17 @@ const SHELL: f64 = 0.3;
 
 /// Number of modes to follow, at least one. The asset's own choice is not looked at.
 pub(crate) fn followed(asset: &Asset) -> usize {
-    let count = asset.modes.count();
+    let count = asset.modes().count();
     if count <= SEARCHED {
         return count;
     }
-    let ladder: Vec<usize> = steps(&asset.modes.eigenvalues);
+    let ladder: Vec<usize> = steps(&asset.modes().eigenvalues);
     let contacts = spread(asset);
     let pulse = Pulse::new(asset);
     let own = sample(asset, &contacts);
     let rows: Vec<Rows> = own
         .iter()
-        .map(|&t| stress_rows(asset, asset.surface.tets[t] as usize))
+        .map(|&t| stress_rows(asset, asset.surface().tets[t] as usize))
         .collect();
     let peaks: Vec<Vec<f32>> = contacts
         .iter()
@@ -105,7 +105,7 @@ fn steps(eigenvalues: &[f64]) -> Vec<usize> {
 
 /// Surface triangles far from one another: each the farthest from those before, the first from the centre of mass.
 fn spread(asset: &Asset) -> Vec<usize> {
-    let centroids: Vec<Vec3> = (0..asset.surface.triangles.len())
+    let centroids: Vec<Vec3> = (0..asset.surface().triangles.len())
         .map(|t| centroid(asset, t))
         .collect();
     let mut gaps: Vec<f32> = centroids.iter().map(|c| c.length_squared()).collect();
@@ -125,10 +125,10 @@ fn spread(asset: &Asset) -> Vec<usize> {
 }
 
 fn centroid(asset: &Asset, triangle: usize) -> Vec3 {
-    let corners = asset.surface.triangles[triangle];
+    let corners = asset.surface().triangles[triangle];
     corners
         .iter()
-        .map(|&v| asset.fracture.positions[v as usize])
+        .map(|&v| asset.fracture().positions[v as usize])
         .sum::<Vec3>()
         / 3.0
 }
@@ -136,7 +136,7 @@ fn centroid(asset: &Asset, triangle: usize) -> Vec3 {
 /// Surface triangles behind whose faces stress is looked at: some all over, and those nearest to each contact but for the near
 /// field of a wall.
 fn sample(asset: &Asset, contacts: &[usize]) -> Vec<usize> {
-    let count = asset.surface.triangles.len();
+    let count = asset.surface().triangles.len();
     let mut order: Vec<usize> = (0..count).collect();
     order.sort_by_key(|&t| (random::bits(1, t as u64), t));
     let mut own: Vec<usize> = order.into_iter().take(SPREAD).collect();
@@ -158,20 +158,20 @@ fn sample(asset: &Asset, contacts: &[usize]) -> Vec<usize> {
 
 /// Distance from a contact within which the stress is the near field's, m.
 fn left_out(asset: &Asset, triangle: usize) -> f32 {
-    let wall = asset.surface.walls.at(triangle as u32);
+    let wall = asset.surface().walls.at(triangle as u32);
     wall.map_or(0.0, |wall| NEAR * wall.thickness as f32)
 }
 
 /// Returns true if the body is made of branches: no shell, and far lighter than the box of its material with the same moments of inertia.
 fn has_branches(asset: &Asset) -> bool {
-    let (mass, inertia) = (&asset.mass, asset.mass.inertia);
+    let (mass, inertia) = (&asset.mass(), asset.mass().inertia);
     let trace = inertia.x_axis.x + inertia.y_axis.y + inertia.z_axis.z;
     // Second moments of the mass: a box of sides a, b, c has a²/12, b²/12, c²/12.
     let second = (DMat3::from_diagonal(DVec3::splat(0.5 * trace)) - inertia) * (1.0 / mass.mass);
     let on_box = (1728.0 * second.determinant()).max(0.0).sqrt();
-    let triangles = asset.surface.triangles.len();
+    let triangles = asset.surface().triangles.len();
     let on_walls = (0..triangles as u32)
-        .filter(|&t| asset.surface.walls.at(t).is_some())
+        .filter(|&t| asset.surface().walls.at(t).is_some())
         .count();
     mass.volume < BRANCHED * on_box && (on_walls as f64) < SHELL * triangles as f64
 }
@@ -189,18 +189,18 @@ impl Pulse {
     fn new(asset: &Asset) -> Self {
         let (share, radius, speed) = BALL;
         let struck = if has_branches(asset) { BRANCH } else { 1.0 };
-        let mass = asset.mass.mass * struck * share;
+        let mass = asset.mass().mass * struck * share;
         let effective = match asset.is_supported() {
             true => mass,
             false => mass / (1.0 + share),
         };
-        let modulus =
-            1.0 / (1.0 / asset.material.contact_modulus() + 1.0 / Preset::STEEL.contact_modulus());
+        let modulus = 1.0
+            / (1.0 / asset.material().contact_modulus() + 1.0 / Preset::STEEL.contact_modulus());
         let duration = hertz_duration(effective, modulus, radius, speed);
         let step = duration / FORCED as f64;
-        let lowest = match asset.modes.count() {
+        let lowest = match asset.modes().count() {
             0 => 0.0,
-            _ => 1.0 / asset.modes.frequency(0),
+            _ => 1.0 / asset.modes().frequency(0),
         };
         let after = (PERIODS * lowest - duration).max(duration) / step;
         Self {
@@ -237,17 +237,17 @@ type Rows = [Vec<f32>; 6];
 /// Returns the stress of each mode at the centroid of a fracture tetrahedron.
 #[must_use]
 pub fn stress_rows(asset: &Asset, tet: usize) -> Rows {
-    let point = &asset.embedding.tets[tet];
+    let point = &asset.embedding().tets[tet];
     let element = point.element as usize;
-    let gradients = point.shape_gradients(&asset.analysis.barycentric_gradients[element]);
-    let count = asset.modes.count();
+    let gradients = point.shape_gradients(&asset.analysis().barycentric_gradients[element]);
+    let count = asset.modes().count();
     let (lambda, mu) = (
-        asset.material.lame_lambda() as f32,
-        asset.material.shear_modulus() as f32,
+        asset.material().lame_lambda() as f32,
+        asset.material().shear_modulus() as f32,
     );
     let mut rows: Rows = std::array::from_fn(|_| vec![0.0; count]);
-    for (&node, g) in asset.analysis.elements[element].iter().zip(gradients) {
-        let [x, y, z] = asset.modes.rows(node as usize);
+    for (&node, g) in asset.analysis().elements[element].iter().zip(gradients) {
+        let [x, y, z] = asset.modes().rows(node as usize);
         for i in 0..count {
             let u = Vec3::new(x[i], y[i], z[i]);
             let volume = lambda * u.dot(g);
@@ -263,17 +263,17 @@ pub fn stress_rows(asset: &Asset, tet: usize) -> Rows {
 
 /// ξ of every mode for a force inwards on a triangle, 1/√kg.
 fn load(asset: &Asset, triangle: usize) -> Vec<f64> {
-    let inwards = -asset.surface.normals[triangle]
+    let inwards = -asset.surface().normals[triangle]
         .iter()
         .sum::<Vec3>()
         .normalize_or_zero();
-    let mut load = vec![0.0; asset.modes.count()];
-    for v in asset.surface.triangles[triangle] {
-        let point: &EmbeddedPoint = &asset.embedding.nodes[v as usize];
-        let nodes = &asset.analysis.elements[point.element as usize];
+    let mut load = vec![0.0; asset.modes().count()];
+    for v in asset.surface().triangles[triangle] {
+        let point: &EmbeddedPoint = &asset.embedding().nodes[v as usize];
+        let nodes = &asset.analysis().elements[point.element as usize];
         for (&node, weight) in nodes.iter().zip(point.shape_values()) {
             let push = (inwards * weight).to_array().map(|p| f64::from(p) / 3.0);
-            asset.modes.add_push(node as usize, push, &mut load);
+            asset.modes().add_push(node as usize, push, &mut load);
         }
     }
     load
@@ -291,10 +291,10 @@ fn peaks(
     ladder: &[usize],
 ) -> Vec<f32> {
     let load = load(asset, at);
-    let modes = &asset.modes;
+    let modes = asset.modes();
     let moved: Vec<Times> = (0..modes.count())
         .map(|i| {
-            let damping = modes.damping(i, &asset.material);
+            let damping = modes.damping(i, asset.material());
             let unit = pulse.follow(modes.eigenvalues[i], damping);
             unit.map(|q| (load[i] * q) as f32)
         })

@@ -1,7 +1,7 @@
 //! Bakes shapes for `frangible`: tetrahedra, quadratic finite elements, vibration modes.
 //!
 //! A bake runs once per kind of object, in f64, and makes the immutable [`frangible::Asset`] that all bodies of that kind share.
-//! [`bake()`] is the main entry point; its stages can be used separately: [`shapes`] makes tetrahedra, [`fem`] stiffness and mass,
+//! [`bake()`] is the main entry point, [`bake_with`] the same with progress and a report; its stages can be used separately: [`shapes`] makes tetrahedra, [`fem`] stiffness and mass,
 //! [`eigen`] the modes, [`embed`] locates points in the analysis mesh, and [`surface`] computes normals and curvature.
 //!
 //! Every shape gets two meshes: a coarse analysis mesh of quadratic elements for the modes, and a fine, deliberately irregular fracture
@@ -13,7 +13,7 @@
 //! use frangible_bake::{BakeSpec, Shape, bake};
 //!
 //! let spec = BakeSpec { modes: 40, ..BakeSpec::new("glass", Shape::drinking_glass(), Material::preset("glass")?) };
-//! let (asset, _) = bake(&spec, &mut |_| {})?; // once per kind of object: tetrahedra and vibration modes
+//! let asset = bake(&spec)?; // once per kind of object: tetrahedra and vibration modes
 //! let body = Body::new(asset.into(), 1)?; // seed of its weak points
 //! let stone = Striker::fixed(&Material::preset("stone")?); // what it lands on
 //! let hit = Contact::strike(Vec3::new(-0.038, 0.0, 0.068), Vec3::X, 5.0, stone); // where, direction, m/s, by what
@@ -57,6 +57,8 @@ use frangible_mesh::random;
 mod report;
 pub mod shapes;
 mod sheet;
+#[cfg(feature = "solver")]
+mod spec;
 mod supports;
 #[cfg(feature = "solver")]
 pub mod surface;
@@ -65,9 +67,9 @@ mod walls;
 pub mod weakness;
 
 #[cfg(feature = "solver")]
-pub use bake::{BakeSpec, bake};
+pub use bake::{Baked, bake, bake_with};
 #[cfg(feature = "solver")]
-pub use bake_file::bake_file;
+pub use bake_file::{bake_file, bake_file_with};
 pub use cancel::CancelToken;
 pub use error::BakeError;
 #[cfg(feature = "solver")]
@@ -85,6 +87,8 @@ pub use shapes::{
     AnalysisChoice, MeshSize, PaneShape, READY_SHAPES, Shape, SolidShape, Station, TetShape,
     WallShape,
 };
+#[cfg(feature = "solver")]
+pub use spec::BakeSpec;
 pub use supports::{Region, Support, check_groups, check_supports};
 
 /// Largest number of modes of an asset. With this many, the bake of a drinking glass takes twice as long as with 120, and its file has 36 MB.

@@ -47,11 +47,11 @@ pub fn motion_on_fracture_mesh(asset: &Asset, amplitudes: &[f32]) -> ModeField {
 
 fn onto_fracture_mesh(asset: &Asset, coarse: &ModeField) -> ModeField {
     let mut field = ModeField::default();
-    for point in &asset.embedding.nodes {
+    for point in &asset.embedding().nodes {
         let (value, gradient) = value_and_gradient(asset, &coarse.displacements, point);
         field.displacements.push(value + gradient * point.offset);
         let mut stress = Symmetric3::default();
-        let nodes = &asset.analysis.elements[point.element as usize];
+        let nodes = &asset.analysis().elements[point.element as usize];
         for (&node, weight) in nodes.iter().zip(point.shape_values()) {
             add(&mut stress, weight, &coarse.stresses[node as usize]);
         }
@@ -74,9 +74,9 @@ pub fn mode_on_analysis_mesh(asset: &Asset, mode: usize) -> ModeField {
 /// Pa, averaged as in [`mode_on_analysis_mesh`]. Modes beyond the list have amplitude zero.
 #[must_use]
 pub fn motion_on_analysis_mesh(asset: &Asset, amplitudes: &[f32]) -> ModeField {
-    let count = asset.modes.count();
+    let count = asset.modes().count();
     let along = |row: &[f32]| row.iter().zip(amplitudes).map(|(phi, q)| phi * q).sum();
-    let rows = asset.modes.shapes.chunks_exact(3 * count);
+    let rows = asset.modes().shapes.chunks_exact(3 * count);
     let displacements = rows
         .map(|row| {
             let [x, y, z] = [0, 1, 2].map(|axis| along(&row[axis * count..][..count]));
@@ -89,7 +89,7 @@ pub fn motion_on_analysis_mesh(asset: &Asset, amplitudes: &[f32]) -> ModeField {
 fn with_stresses(asset: &Asset, displacements: Vec<Vec3>) -> ModeField {
     let mut stresses = vec![Symmetric3::default(); displacements.len()];
     let mut counts = vec![0.0_f32; displacements.len()];
-    for (element, nodes) in (0..).zip(&asset.analysis.elements) {
+    for (element, nodes) in (0..).zip(&asset.analysis().elements) {
         for (&node, barycentric) in nodes.iter().zip(NODE_PLACES) {
             let point = EmbeddedPoint {
                 element,
@@ -97,7 +97,7 @@ fn with_stresses(asset: &Asset, displacements: Vec<Vec3>) -> ModeField {
                 offset: Vec3::ZERO,
             };
             let gradient = value_and_gradient(asset, &displacements, &point).1;
-            let stress = linear_stress(gradient, &asset.material);
+            let stress = linear_stress(gradient, asset.material());
             add(&mut stresses[node as usize], 1.0, &stress);
             counts[node as usize] += 1.0;
         }
@@ -113,9 +113,9 @@ fn with_stresses(asset: &Asset, displacements: Vec<Vec3>) -> ModeField {
 }
 
 fn mode_displacements(asset: &Asset, mode: usize) -> Vec<Vec3> {
-    let count = asset.modes.count();
+    let count = asset.modes().count();
     assert!(mode < count, "mode {mode} of {count}");
-    let rows = asset.modes.shapes.chunks_exact(3 * count);
+    let rows = asset.modes().shapes.chunks_exact(3 * count);
     rows.map(|row| Vec3::new(row[mode], row[count + mode], row[2 * count + mode]))
         .collect()
 }
@@ -123,10 +123,10 @@ fn mode_displacements(asset: &Asset, mode: usize) -> Vec<Vec3> {
 /// Value and gradient of a field of vectors at the analysis nodes, at the closest point of an element; column j = ∂u/∂x_j.
 fn value_and_gradient(asset: &Asset, field: &[Vec3], point: &EmbeddedPoint) -> (Vec3, Mat3) {
     let element = point.element as usize;
-    let barycentric_gradients = &asset.analysis.barycentric_gradients[element];
+    let barycentric_gradients = &asset.analysis().barycentric_gradients[element];
     let gradients = point.shape_gradients(barycentric_gradients);
     let (mut value, mut gradient) = (Vec3::ZERO, Mat3::ZERO);
-    for ((&node, n), g) in asset.analysis.elements[element]
+    for ((&node, n), g) in asset.analysis().elements[element]
         .iter()
         .zip(point.shape_values())
         .zip(gradients)

@@ -4,7 +4,7 @@ use std::process::Command;
 
 use frangible::glam::DVec3;
 use frangible::{Asset, Material};
-use frangible_bake::{BakeError, BakeReport, BakeSpec, MeshSize, Shape, Stage, bake};
+use frangible_bake::{BakeError, BakeSpec, Baked, MeshSize, Shape, Stage, bake, bake_with};
 
 fn small_glass() -> BakeSpec {
     let mut spec = BakeSpec::new(
@@ -29,33 +29,33 @@ fn hash(asset: &Asset) -> u64 {
     let mut bits: Vec<u32> = Vec::new();
     bits.extend(
         asset
-            .fracture
+            .fracture()
             .positions
             .iter()
             .flat_map(|p| p.to_array().map(f32::to_bits)),
     );
-    bits.extend(asset.fracture.tets.iter().flatten());
-    bits.extend(asset.modes.shapes.iter().map(|x| x.to_bits()));
-    bits.extend(asset.modes.peak_stress.iter().map(|x| x.to_bits()));
+    bits.extend(asset.fracture().tets.iter().flatten());
+    bits.extend(asset.modes().shapes.iter().map(|x| x.to_bits()));
+    bits.extend(asset.modes().peak_stress.iter().map(|x| x.to_bits()));
     bits.extend(
         asset
-            .embedding
+            .embedding()
             .tets
             .iter()
             .flat_map(|p| p.barycentric.map(f32::to_bits)),
     );
     bits.extend(
         asset
-            .surface
+            .surface()
             .normals
             .iter()
             .flatten()
             .flat_map(|n| n.to_array().map(f32::to_bits)),
     );
-    bits.extend(asset.surface.curvature_radius.iter().map(|x| x.to_bits()));
+    bits.extend(asset.surface().curvature_radius.iter().map(|x| x.to_bits()));
     bits.extend(
         asset
-            .modes
+            .modes()
             .eigenvalues
             .iter()
             .flat_map(|x| [x.to_bits() as u32, (x.to_bits() >> 32) as u32]),
@@ -68,7 +68,7 @@ fn hash(asset: &Asset) -> u64 {
 #[test]
 fn an_asset_holds_together() {
     let mut stages = Vec::new();
-    let (asset, report) = bake(&small_glass(), &mut |p| {
+    let Baked { asset, report } = bake_with(&small_glass(), |p| {
         assert!((0.0..=1.0).contains(&p.fraction), "{p:?}");
         stages.push(p.stage);
     })
@@ -88,31 +88,36 @@ fn an_asset_holds_together() {
             Stage::Followed
         ]
     );
-    assert_eq!(asset.modes.count(), 40);
+    assert_eq!(asset.modes().count(), 40);
     assert!(report.max_residual < 1e-7, "{}", report.max_residual);
     // A tumbler of this size weighs about 160 g; the origin is the centre of mass.
     assert!(
-        (0.14..0.18).contains(&asset.mass.mass),
+        (0.14..0.18).contains(&asset.mass().mass),
         "{} kg",
-        asset.mass.mass
+        asset.mass().mass
     );
-    let first: DVec3 = (0..asset.fracture.tets.len())
-        .map(|e| asset.fracture.centroid(e).as_dvec3() * asset.fracture.volume(e))
+    let first: DVec3 = (0..asset.fracture().tets.len())
+        .map(|e| asset.fracture().centroid(e).as_dvec3() * asset.fracture().volume(e))
         .sum();
     assert!(
-        first.length() / asset.mass.volume < 1e-8,
+        first.length() / asset.mass().volume < 1e-8,
         "centre of mass at {}",
-        first / asset.mass.volume
+        first / asset.mass().volume
     );
     assert!(
         asset
-            .modes
+            .modes()
             .peak_stress
             .iter()
             .all(|s| s.is_finite() && *s > 0.0)
     );
-    for (triangle, normals) in asset.surface.triangles.iter().zip(&asset.surface.normals) {
-        let [a, b, c] = triangle.map(|v| asset.fracture.positions[v as usize]);
+    for (triangle, normals) in asset
+        .surface()
+        .triangles
+        .iter()
+        .zip(&asset.surface().normals)
+    {
+        let [a, b, c] = triangle.map(|v| asset.fracture().positions[v as usize]);
         let face = (b - a).cross(c - a).normalize();
         assert!(
             normals
@@ -120,7 +125,7 @@ fn an_asset_holds_together() {
                 .all(|n| (n.length() - 1.0).abs() < 1e-5 && n.dot(face) > 0.7)
         );
     }
-    for cell in &asset.cells {
+    for cell in asset.cells() {
         assert!(cell.points.len() >= 6 && cell.points.iter().all(|p| p.is_finite()));
     }
 }
@@ -143,38 +148,38 @@ fn curvature_is_flat_inside_a_face_small_at_edges_and_right_on_a_cylinder() {
         edge: 0.01,
         layers: 0,
     });
-    let (block, _) = bake(&spec, &mut |_| {}).unwrap();
+    let block = bake(&spec).unwrap();
     for (triangle, radius) in block
-        .surface
+        .surface()
         .triangles
         .iter()
-        .zip(&block.surface.curvature_radius)
+        .zip(&block.surface().curvature_radius)
     {
         let on_edge = triangle.iter().any(|&v| {
-            let p = block.fracture.positions[v as usize].abs();
+            let p = block.fracture().positions[v as usize].abs();
             p.to_array().iter().filter(|x| **x > 0.0499).count() > 1
         });
         let expected = if on_edge { 0.003 } else { f32::INFINITY };
         assert_eq!(*radius, expected);
     }
-    let (glass, _) = bake(&small_glass(), &mut |_| {}).unwrap();
+    let glass = bake(&small_glass()).unwrap();
     let middle = |t: &[u32; 3]| {
         t.iter()
-            .map(|&v| glass.fracture.positions[v as usize])
+            .map(|&v| glass.fracture().positions[v as usize])
             .sum::<frangible::glam::Vec3>()
             / 3.0
     };
     let top = glass
-        .fracture
+        .fracture()
         .positions
         .iter()
         .map(|p| p.z)
         .fold(f32::MIN, f32::max);
     let wall = glass
-        .surface
+        .surface()
         .triangles
         .iter()
-        .zip(&glass.surface.curvature_radius)
+        .zip(&glass.surface().curvature_radius)
         .filter(|(t, _)| {
             let p = middle(t);
             (p.z - top + 0.05).abs() < 0.02 && p.truncate().length() > 0.0353
@@ -190,7 +195,7 @@ fn curvature_is_flat_inside_a_face_small_at_edges_and_right_on_a_cylinder() {
 
 #[test]
 fn two_bakes_give_the_same_bits() {
-    let bake = || hash(&bake(&small_glass(), &mut |_| {}).unwrap().0);
+    let bake = || hash(&bake(&small_glass()).unwrap());
     assert_eq!(bake(), bake());
 }
 
@@ -198,10 +203,7 @@ fn two_bakes_give_the_same_bits() {
 fn the_number_of_threads_does_not_show() {
     const CHILD: &str = "FRANGIBLE_BAKE_HASH";
     if std::env::var_os(CHILD).is_some() {
-        println!(
-            "hash {:016x}",
-            hash(&bake(&small_glass(), &mut |_| {}).unwrap().0)
-        );
+        println!("hash {:016x}", hash(&bake(&small_glass()).unwrap()));
         return;
     }
     // Thread pools are sized once per process, so each count gets a process of its own.
@@ -232,23 +234,23 @@ fn bad_input_is_refused_with_a_way_out() {
     let mut spec = small_glass();
     spec.modes = 0;
     assert!(matches!(
-        bake(&spec, &mut |_| {}),
+        bake(&spec),
         Err(BakeError::Modes { wanted: 0, .. })
     ));
     for density in [0.0, -1.0, f64::NAN] {
         let mut spec = small_glass();
         spec.material.density = density;
         assert!(
-            matches!(bake(&spec, &mut |_| {}), Err(BakeError::Input(_))),
+            matches!(bake(&spec), Err(BakeError::Input(_))),
             "density {density}"
         );
     }
     let mut spec = small_glass();
     spec.material.poisson_ratio = 0.5;
-    assert!(matches!(bake(&spec, &mut |_| {}), Err(BakeError::Input(_))));
+    assert!(matches!(bake(&spec), Err(BakeError::Input(_))));
     let mut spec = small_glass();
     spec.modes = 1_000_000;
-    let error = bake(&spec, &mut |_| {}).unwrap_err();
+    let error = bake(&spec).unwrap_err();
     assert!(
         matches!(
             error,
@@ -265,7 +267,7 @@ fn bad_input_is_refused_with_a_way_out() {
         layers: 1,
     });
     spec.modes = 10;
-    let error = bake(&spec, &mut |_| {}).unwrap_err();
+    let error = bake(&spec).unwrap_err();
     assert!(
         matches!(
             error,
@@ -276,10 +278,7 @@ fn bad_input_is_refused_with_a_way_out() {
 }
 
 /// A small plate; more than 60 modes, so that the bake chooses.
-fn plate_of(
-    modes: usize,
-    followed: Option<usize>,
-) -> Result<(frangible::Asset, BakeReport), BakeError> {
+fn plate_of(modes: usize, followed: Option<usize>) -> Result<Baked, BakeError> {
     let shape = Shape::plate(0.1, 0.08, 0.008);
     let spec = BakeSpec {
         modes,
@@ -288,21 +287,22 @@ fn plate_of(
         fracture: Some(shape.size_for(3000.0).unwrap()),
         ..BakeSpec::new("plate", shape, Material::preset("glass").unwrap())
     };
-    bake(&spec, &mut |_| {})
+    bake_with(&spec, |_| {})
 }
 
 #[test]
 fn the_bake_chooses_how_many_modes_a_blow_follows() {
-    let (asset, report) = plate_of(90, None).unwrap();
-    assert_eq!((report.modes, asset.modes.count()), (90, 90));
-    assert_eq!(report.followed, asset.modes.followed());
+    let Baked { asset, report } = plate_of(90, None).unwrap();
+    assert_eq!((report.modes, asset.modes().count()), (90, 90));
+    assert_eq!(report.followed, asset.modes().followed());
     assert!((10..=90).contains(&report.followed), "{}", report.followed);
     // The modes themselves do not hang on the choice.
-    let (told, report) = plate_of(90, Some(33)).unwrap();
-    assert_eq!((report.followed, told.modes.residual_modes), (33, 57));
-    assert_eq!(told.modes.shapes, asset.modes.shapes);
+    let told = plate_of(90, Some(33)).unwrap();
+    let (report, modes) = (told.report, told.asset.modes());
+    assert_eq!((report.followed, modes.residual_modes), (33, 57));
+    assert_eq!(modes.shapes, asset.modes().shapes);
     // Of few modes all are followed.
-    assert_eq!(plate_of(60, None).unwrap().0.modes.residual_modes, 0);
+    assert_eq!(plate_of(60, None).unwrap().asset.modes().residual_modes, 0);
 }
 
 #[test]
@@ -327,10 +327,10 @@ fn a_body_for_games_is_small() {
         ("brick", Shape::block([0.21, 0.1, 0.05])),
     ] {
         let spec = BakeSpec::for_games(name, shape, glass.clone()).unwrap();
-        let (asset, _) = bake(&spec, &mut |_| {}).unwrap();
-        let tets = asset.fracture.tets.len();
+        let asset = bake(&spec).unwrap();
+        let tets = asset.fracture().tets.len();
         assert!((1200..2500).contains(&tets), "{name}: {tets} tetrahedra");
-        assert_eq!(asset.modes.count(), 40, "{name}");
+        assert_eq!(asset.modes().count(), 40, "{name}");
     }
     let nothing = Shape::block([0.1, 0.0, 0.1]);
     assert!(BakeSpec::for_games("nothing", nothing, glass).is_err());

@@ -41,18 +41,18 @@ fn jack() -> Asset {
         analysis: Some(shape.size_for(1500.0).unwrap()),
         ..BakeSpec::new("jack", shape, material)
     };
-    bake(&spec, &mut |_| {}).unwrap().0
+    bake(&spec).unwrap()
 }
 
 /// The largest tension of a blow at places about the root of the arm along (1, 1, 1) and on the hub, Pa.
 fn peak(asset: &Asset, contact: &Contact) -> f32 {
-    let body = Breakable::new(asset.clone()).unwrap().body(1);
+    let body = Breakable::uniform(asset.clone()).unwrap().body(1);
     let config = FractureConfig::default();
     let blow = Blow::new(&body, std::slice::from_ref(contact), &config)
         .unwrap()
         .unwrap();
     let root = Vec3::splat(0.6 * HUB as f32);
-    let near = |e: &u32| asset.fracture.centroid(*e as usize).distance(root) < 0.02;
+    let near = |e: &u32| asset.fracture().centroid(*e as usize).distance(root) < 0.02;
     let tets: Vec<u32> = body.weak_tets().iter().copied().filter(near).collect();
     let (motion, step) = (blow.motion(), blow.time_step());
     let end = motion.begin(motion.steps(), step);
@@ -71,8 +71,8 @@ fn peak(asset: &Asset, contact: &Contact) -> f32 {
 fn the_modes_that_a_blow_on_a_branch_follows_give_the_stress_that_all_modes_do() {
     let chosen = jack();
     let mut all = chosen.clone();
-    all.modes.residual_modes = 0;
-    let followed = chosen.modes.followed();
+    all.parts_mut().modes.residual_modes = 0;
+    let followed = chosen.modes().followed();
     // Fewer than eight bendings of each arm in both directions, and more than four.
     assert!((64..MODES).contains(&followed), "{followed}");
     let steel = Material::preset("steel").unwrap();

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use frangible::Material;
 use frangible_bake::eigen::lowest_modes;
 use frangible_bake::fem::{Elasticity, Elements, QuadraticMesh, System, assemble};
-use frangible_bake::{BakeError, BakeSpec, CancelToken, MeshSize, Shape, Stage, bake};
+use frangible_bake::{BakeError, BakeSpec, CancelToken, MeshSize, Shape, Stage, bake_with};
 
 fn glass() -> BakeSpec {
     let material = Material::preset("glass").unwrap();
@@ -70,7 +70,7 @@ fn a_bake_ends_within_the_stage_in_which_it_is_cancelled() {
         let spec = glass();
         let token = spec.cancel.clone();
         let mut last = None;
-        let result = bake(&spec, &mut |progress| {
+        let result = bake_with(&spec, |progress| {
             last = Some(progress.stage);
             if progress.stage == stop_in {
                 token.cancel();
@@ -93,7 +93,7 @@ fn another_thread_can_cancel() {
         token.cancel();
         done.send(()).unwrap();
     });
-    let result = bake(&spec, &mut |progress| {
+    let result = bake_with(&spec, |progress| {
         if progress.stage == Stage::Modes && progress.fraction == 0.0 {
             // Hold the bake until the other thread has had its turn.
             if reached.send(()).is_ok() {
@@ -107,7 +107,7 @@ fn another_thread_can_cancel() {
 
 #[test]
 fn a_bake_that_nobody_cancels_tells_where_the_time_of_its_modes_went() {
-    let (_, report) = bake(&glass(), &mut |_| {}).unwrap();
+    let report = bake_with(&glass(), |_| {}).unwrap().report;
     let modes = report
         .seconds
         .iter()

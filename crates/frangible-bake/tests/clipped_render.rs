@@ -134,18 +134,18 @@ fn check(mesh: &InputMesh, tets: usize) -> [f64; 2] {
             Material::preset("porcelain").unwrap(),
         )
     };
-    let (asset, _) = bake(&spec, &mut |_| {}).unwrap();
-    let render = asset.render.clone().unwrap();
+    let asset = bake(&spec).unwrap();
+    let render = asset.render().cloned().unwrap();
     let shift = render.positions[0].as_dvec3() - mesh.positions[0];
-    let edge = f64::from(asset.fracture.mean_edge());
+    let edge = f64::from(asset.fracture().mean_edge());
     let top = asset
-        .fracture
+        .fracture()
         .positions
         .iter()
         .copied()
         .max_by(|a, b| a.y.total_cmp(&b.y))
         .unwrap();
-    let breakable = Breakable::new(asset).unwrap();
+    let breakable = Breakable::uniform(asset).unwrap();
     let config = FractureConfig::default();
     // Harder and harder until it breaks.
     let outcomes = (0..30).map(|k| {

@@ -20,7 +20,7 @@ struct Cut {
 
 fn cuts(asset: &Asset, trace: &CrackTrace) -> Vec<Cut> {
     let cut = |element: &frangible::internals::ElementTrace| {
-        let x = asset.fracture.corners(element.tet as usize);
+        let x = asset.fracture().corners(element.tet as usize);
         let s = element.values;
         let [a, b, c] = [1, 2, 3].map(|k| x[k] - x[0]);
         let [p, q, r] = [1, 2, 3].map(|k| s[k] - s[0]);
@@ -58,23 +58,23 @@ fn moved<const N: usize>(shape: Shape, tets: f64, shapes: impl Fn(Vec3) -> [Vec3
     let mut spec = BakeSpec::new("body", shape, Material::preset("glass").unwrap());
     spec.fracture = Some(spec.shape.size_for(tets).unwrap());
     spec.modes = 8;
-    let mut asset = bake(&spec, &mut |_| {}).unwrap().0;
-    asset.material.roughness_amplitude = 0.0;
-    let of_node = asset.analysis.nodes.iter().flat_map(|&p| {
+    let mut asset = bake(&spec).unwrap();
+    asset.parts_mut().material.roughness_amplitude = 0.0;
+    let of_node = asset.analysis().nodes.iter().flat_map(|&p| {
         let u = shapes(p);
         (0..3).flat_map(move |axis| u.map(|u| u[axis]))
     });
-    asset.modes.shapes = of_node.collect();
-    asset.modes.eigenvalues = vec![1e6; N];
-    asset.modes.residual_modes = 0;
-    asset.modes.peak_stress = vec![0.0; N];
-    asset.bounds = StressBounds::default();
+    asset.parts_mut().modes.shapes = of_node.collect();
+    asset.parts_mut().modes.eigenvalues = vec![1e6; N];
+    asset.parts_mut().modes.residual_modes = 0;
+    asset.parts_mut().modes.peak_stress = vec![0.0; N];
+    *asset.parts_mut().bounds = StressBounds::default();
     asset
 }
 
 /// A body of this asset with one weak point, in the tetrahedron nearest to a place, whose cracks never fork.
 fn weak_at(asset: &Arc<Asset>, place: Vec3, seed: u64) -> Body {
-    let mesh = &asset.fracture;
+    let mesh = asset.fracture();
     let distance = |e: usize| mesh.centroid(e).distance(place);
     let tets = 0..mesh.tets.len();
     let nearest = tets.min_by(|&a, &b| distance(a).total_cmp(&distance(b)));
@@ -89,8 +89,8 @@ fn weak_at(asset: &Arc<Asset>, place: Vec3, seed: u64) -> Body {
     let mut fields = Fields::default();
     fields.of_tet = of_tet;
     let mut asset = Asset::clone(asset);
-    asset.material.branching_constant = f64::INFINITY;
-    let kind = Breakable::new(asset).unwrap();
+    asset.parts_mut().material.branching_constant = f64::INFINITY;
+    let kind = Breakable::uniform(asset).unwrap();
     let body = kind.with_fields(fields).unwrap().body(seed);
     assert_eq!(body.weak_tets().len(), 1);
     body
@@ -104,7 +104,7 @@ fn under(body: &Body, amplitudes: &[f32], time: f64) -> (Vec<Cut>, f64) {
     let step = time / steps as f64;
     let (_, trace) = follow_traced(body, &motion, &[], step, &config).unwrap();
     assert_eq!(trace.cracks.len(), 1);
-    let speed = 0.5 * body.asset().material.rayleigh_speed();
+    let speed = 0.5 * body.asset().material().rayleigh_speed();
     (cuts(body.asset(), &trace), speed)
 }
 
@@ -136,7 +136,7 @@ fn a_crack_keeps_its_direction_and_its_speed_at_every_angle_to_the_mesh() {
         [a, b, c, d, e, f]
     });
     let asset = Arc::new(asset);
-    let material = &asset.material;
+    let material = asset.material();
     let stress = 1.5 * material.strength / material.youngs_modulus;
     for bends in [false, true] {
         for step in 0..12 {
@@ -183,12 +183,10 @@ fn roughness_does_not_turn_a_crack_nor_add_to_its_area() {
     let side = 0.06;
     let block = Shape::block([side; 3]);
     let mut asset = moved(block, 60_000.0, |p| [Vec3::new(p.x, 0.0, 0.0)]);
-    (
-        asset.material.roughness_amplitude,
-        asset.material.roughness_wavelength,
-    ) = (2e-3, 8e-3);
+    let material = asset.parts_mut().material;
+    (material.roughness_amplitude, material.roughness_wavelength) = (2e-3, 8e-3);
     let asset = Arc::new(asset);
-    let material = &asset.material;
+    let material = asset.material();
     let strain = 1.5 * material.strength / material.youngs_modulus;
     for seed in 0..4 {
         let body = weak_at(&asset, Vec3::ZERO, seed);
@@ -225,9 +223,9 @@ fn a_crack_runs_round_a_tube_at_its_speed() {
         [Vec3::new(-poisson * p.x, -poisson * p.y, p.z)]
     });
     let asset = Arc::new(asset);
-    let material = &asset.material;
+    let material = asset.material();
     let strain = 1.5 * material.strength / material.youngs_modulus;
-    let positions = asset.fracture.positions.iter();
+    let positions = asset.fracture().positions.iter();
     let top = positions.map(|p| p.z).fold(f32::MIN, f32::max);
     let radius = 0.031;
     for turn in 0..6 {
@@ -275,10 +273,10 @@ fn the_mesh_does_not_tell_in_which_directions_a_pane_breaks() {
         let mut spec = BakeSpec::new("pane", shape, Material::preset("glass").unwrap());
         spec.fracture = Some(spec.shape.size_for(10_000.0).unwrap());
         (spec.seed, spec.modes) = (mesh, 40);
-        let asset = Arc::new(bake(&spec, &mut |_| {}).unwrap().0);
-        let kind = Breakable::new(Arc::clone(&asset)).unwrap();
+        let asset = Arc::new(bake(&spec).unwrap());
+        let kind = Breakable::uniform(Arc::clone(&asset)).unwrap();
         let kind = kind
-            .with_fields(Fields::of_material(&asset.material))
+            .with_fields(Fields::of_material(asset.material()))
             .unwrap();
         let parts: Vec<[f64; PARTS]> = (1..=80)
             .map(|seed| {

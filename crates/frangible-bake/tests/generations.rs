@@ -45,7 +45,7 @@ fn check(body: &Body, fracture: &Fracture, seen: &mut Seen) {
         .iter()
         .map(|f| f.mass.centre * f.mass.mass)
         .sum();
-    let parent = &body.asset().mass;
+    let parent = &body.asset().mass();
     assert!((mass / parent.mass - 1.0).abs() < 1e-9);
     // The centre of all of them is that of the body; its surface is stored in f32.
     assert!((moment / mass - parent.centre).length() < 1e-8);
@@ -112,7 +112,7 @@ fn pieces_of_pieces_tile_them_over_three_generations() {
 
 /// A piece of a plate is as thick as the plate, ends at its cracks, and has no wall behind them.
 fn check_walls(piece: &Body, fragment: &Fragment) {
-    let (mesh, surface) = (&fragment.mesh, &piece.asset().surface);
+    let (mesh, surface) = (&fragment.mesh, piece.asset().surface());
     assert_eq!(surface.walls.thickness.len(), mesh.triangles.len());
     let (outer, inner) = mesh.triangles.split_at(mesh.outer_triangles);
     let at_crack: Vec<u32> = inner.iter().flatten().copied().collect();
@@ -157,14 +157,14 @@ fn pieces_share_the_parents_mesh_and_weak_points() {
         panic!("the plate held");
     };
     let portions = fracture.portions(&body, |_, _| true);
-    let mut owner = vec![None; body.asset().fracture.tets.len()];
+    let mut owner = vec![None; body.asset().fracture().tets.len()];
     for (number, portion) in portions.iter().enumerate() {
         let portion = portion.as_ref().expect("every fragment was wanted");
         let elastic = frangible_bake::pieces::reanalysis(portion, 60, 4);
         // Some are too small for elements of their own.
         if let Ok(elastic) = elastic {
             let piece = body.piece(portion, elastic).expect("a piece");
-            let (own, parents) = (&piece.asset().fracture, &body.asset().fracture);
+            let (own, parents) = (piece.asset().fracture(), body.asset().fracture());
             assert!(Arc::ptr_eq(own, parents));
             check_walls(&piece, &fracture.fragments[number]);
         }

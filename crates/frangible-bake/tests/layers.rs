@@ -7,7 +7,7 @@ use frangible::glam::DVec3;
 use frangible_bake::frangible_mesh::InputMesh;
 use frangible_bake::{
     BakeError, BakeReport, BakeSpec, ImportOptions, Imported, Region, Shape, Support, bake,
-    import_mesh,
+    bake_with, import_mesh,
 };
 
 /// A box from the origin.
@@ -64,7 +64,7 @@ fn baked(shape: Shape, supports: Vec<Support>, material: Material) -> BakeReport
         supports,
         ..BakeSpec::new("wall", shape, material)
     };
-    bake(&spec, &mut |_| {}).unwrap().1
+    bake_with(&spec, |_| {}).unwrap().report
 }
 
 #[test]
@@ -220,7 +220,7 @@ fn bakes_of_walls_have_the_same_bits_on_one_thread_and_two() {
                 modes: 6,
                 ..BakeSpec::new("bent", shape, Material::preset("glass").unwrap())
             };
-            bake(&spec, &mut |_| {}).unwrap().0.to_bytes()
+            bake(&spec).unwrap().to_bytes()
         })
     };
     assert!(with_threads(1) == with_threads(2), "the bits differ");

@@ -38,7 +38,7 @@ fn a_whole_body_analysed_again_has_the_modes_of_its_bake() {
         let elastic = reanalysis(&whole(&body), 1500, 20).expect("modes");
         let (found, expected) = (
             frequencies(&elastic.modes),
-            frequencies(&body.asset().modes),
+            frequencies(body.asset().modes()),
         );
         assert_near(&found, &expected, tolerance, "reanalysis");
         let soft = found
@@ -90,7 +90,7 @@ fn the_parents_modes_of_an_uncut_whole_are_its_own() {
     let elastic = parent_modes(&whole(&body), &body).expect("modes");
     let (found, expected) = (
         frequencies(&elastic.modes),
-        frequencies(&body.asset().modes),
+        frequencies(body.asset().modes()),
     );
     // One point per tetrahedron integrates a curved shape a little wrong.
     assert_near(&found, &expected, 0.02, "parent's modes");

@@ -1,7 +1,7 @@
 //! A mode at the nodes of the meshes: against displacements whose stress is known.
 
 use frangible::glam::{Mat3, Vec3};
-use frangible::internals::asset::{AnalysisMesh, EmbeddedPoint, Embedding};
+use frangible::internals::asset::{AnalysisMesh, AssetParts, EmbeddedPoint, Embedding};
 use frangible::internals::modal::ModalBasis;
 use frangible::internals::stress::{Symmetric3, principal_axes};
 use frangible::{Asset, Material};
@@ -33,7 +33,7 @@ fn block() -> Asset {
         modes: 4,
         ..BakeSpec::new("block", Shape::block([0.1, 0.05, 0.03]), glass)
     };
-    bake(&spec, &mut |_| {}).expect("a baked block").0
+    bake(&spec).expect("a baked block")
 }
 
 /// Two elements that share a face, a point in each, and modes that move every node as these functions say.
@@ -80,7 +80,7 @@ fn two_elements(modes: &[fn(Vec3) -> Vec3]) -> Asset {
         barycentric,
         offset,
     };
-    Asset {
+    Asset::from_parts(AssetParts {
         analysis: AnalysisMesh {
             nodes,
             elements,
@@ -96,13 +96,13 @@ fn two_elements(modes: &[fn(Vec3) -> Vec3]) -> Asset {
             ],
         },
         modes,
-        ..block()
-    }
+        ..block().into_parts()
+    })
 }
 
 fn place(asset: &Asset, point: &EmbeddedPoint) -> Vec3 {
-    let nodes = asset.analysis.elements[point.element as usize];
-    let corner = |k: usize| point.barycentric[k] * asset.analysis.nodes[nodes[k] as usize];
+    let nodes = asset.analysis().elements[point.element as usize];
+    let corner = |k: usize| point.barycentric[k] * asset.analysis().nodes[nodes[k] as usize];
     (0..4).map(corner).sum::<Vec3>() + point.offset
 }
 
@@ -128,8 +128,8 @@ fn bending(p: Vec3) -> Vec3 {
 #[test]
 fn stretched_and_bent_bodies_have_the_stress_of_the_closed_form() {
     let mut asset = two_elements(&[stretch, bending]);
-    asset.material.poisson_ratio = 0.23;
-    let modulus = asset.material.youngs_modulus as f32;
+    asset.parts_mut().material.poisson_ratio = 0.23;
+    let modulus = asset.material().youngs_modulus as f32;
     let along_x = |s: f32| Symmetric3 {
         diagonal: [s, 0.0, 0.0],
         off: [0.0; 3],
@@ -137,11 +137,11 @@ fn stretched_and_bent_bodies_have_the_stress_of_the_closed_form() {
     let on_nodes = |mode| {
         (
             mode_on_analysis_mesh(&asset, mode),
-            asset.analysis.nodes.clone(),
+            asset.analysis().nodes.clone(),
         )
     };
     let on_points = |mode| {
-        let places = asset.embedding.nodes.iter().map(|p| place(&asset, p));
+        let places = asset.embedding().nodes.iter().map(|p| place(&asset, p));
         (mode_on_fracture_mesh(&asset, mode), places.collect())
     };
     let (stretched, bent) = (100.0 * modulus, |p: Vec3| -300.0 * modulus * p.z);
@@ -160,7 +160,7 @@ fn stretched_and_bent_bodies_have_the_stress_of_the_closed_form() {
             // A point beside its element is reached by the tangent, and has the stress of the closest point.
             let beside = number == 1 && i == 1;
             let (slack, at) = if beside {
-                (0.02, *p - asset.embedding.nodes[1].offset)
+                (0.02, *p - asset.embedding().nodes[1].offset)
             } else {
                 (1e-4, *p)
             };

@@ -29,18 +29,18 @@ fn bar(length: f64, modes: usize, supports: Vec<Support>) -> Asset {
         supports,
         ..BakeSpec::new("bar", shape, undamped())
     };
-    let mut asset = bake(&spec, &mut |_| {}).unwrap().0;
-    asset.modes.residual_modes = 0;
+    let mut asset = bake(&spec).unwrap();
+    asset.parts_mut().modes.residual_modes = 0;
     asset
 }
 
 fn body(asset: Asset) -> Body {
-    Breakable::new(Arc::new(asset)).unwrap().body(1)
+    Breakable::uniform(Arc::new(asset)).unwrap().body(1)
 }
 
 /// Pieces by the number that `of` gives each place, the largest first.
 fn pieces(body: &Body, of: impl Fn(Vec3) -> usize) -> (Vec<u32>, usize) {
-    let positions = &body.asset().fracture.positions;
+    let positions = &body.asset().fracture().positions;
     let numbers: Vec<usize> = positions.iter().map(|&p| of(p)).collect();
     let count = numbers.iter().max().unwrap() + 1;
     let size = |piece: usize| numbers.iter().filter(|&&n| n == piece).count();
@@ -100,7 +100,7 @@ fn a_bar_that_parts_rings_as_its_halves_do() {
     let (labels, count) = pieces(&body, |p| usize::from(p.x < 0.0));
     // The piece that moves on its own is the one with fewer nodes.
     let side = |label: u32| {
-        let nodes = labels.iter().zip(&body.asset().fracture.positions);
+        let nodes = labels.iter().zip(&body.asset().fracture().positions);
         nodes
             .filter(|&(&l, _)| l == label)
             .map(|(_, p)| f64::from(p.x))
@@ -115,7 +115,7 @@ fn a_bar_that_parts_rings_as_its_halves_do() {
     });
     let (blow, step) = parted.expect("a time at which the halves part");
     // Half a wave in each half.
-    let material = &body.asset().material;
+    let material = body.asset().material();
     let expected = (material.youngs_modulus / f64::from(material.density as f32)).sqrt() / BAR[0];
     let found = loudest(&blow, 120, step, expected);
     println!("half a wave in a half: {expected:.0} Hz, in the parted bar {found:.0} Hz");
@@ -163,13 +163,13 @@ fn a_small_piece_that_is_hit_weighs_what_it_weighs() {
     let (labels, count) = pieces(&body, |p| usize::from(p.x > cut));
     whole.part(&body, &labels, count, 1);
     let asset = body.asset();
-    let mesh = &asset.fracture;
+    let mesh = asset.fracture();
     let own = (0..mesh.tets.len()).map(|e| {
         let own = mesh.tets[e]
             .iter()
             .filter(|&&v| labels[v as usize] == 1)
             .count();
-        0.25 * own as f64 * mesh.volume(e) * f64::from(asset.material.density as f32)
+        0.25 * own as f64 * mesh.volume(e) * f64::from(asset.material().density as f32)
     });
     let (piece, ball) = (own.sum::<f64>(), 0.02);
     let report = &whole.reports()[0];
@@ -183,7 +183,7 @@ fn a_small_piece_that_is_hit_weighs_what_it_weighs() {
     assert!(report.impulse < 1.1 * most && report.impulse > 0.8 * most);
     assert!(before > 1.2 * report.impulse);
     // Its momentum against the whole: the momentum that it was given less its share of that of the whole.
-    let mass = &asset.mass;
+    let mass = &asset.mass();
     let at = point.as_dvec3();
     let spin = mass.inertia.inverse() * at.cross(DVec3::NEG_Y * report.impulse);
     let rigid = DVec3::NEG_Y * report.impulse / mass.mass + spin.cross(DVec3::new(at.x, 0.0, 0.0));
@@ -214,7 +214,7 @@ fn what_is_beside_a_piece_that_has_flown_off_is_met_next() {
         assert!(gained + report.crushing_energy <= 1.001 * lost);
         (report.impulse, report.departure_speed)
     };
-    let piece = 0.05 * body.asset().mass.mass;
+    let piece = 0.05 * body.asset().mass().mass;
     let most = 2.0 * 2.0 * piece * 0.2 / (piece + 0.2);
     let ((wide, leaves), (narrow, flies_on)) = (of_ball(0.05), of_ball(0.004));
     assert!(wide > 1.5 * most && leaves > flies_on, "{wide} of {most}");
@@ -231,7 +231,7 @@ fn halves_that_are_struck_apart_fly_symmetrically() {
     blow.part(&body, &labels, count, step);
     let impulse = blow.reports()[0].impulse;
     let [linear, angular] = blow.drifts()[0];
-    let fair = impulse / body.asset().mass.mass;
+    let fair = impulse / body.asset().mass().mass;
     println!("drift {linear:.4} m/s, {angular:.2} rad/s, the whole {fair:.4} m/s");
     // Neither half is faster than the other, and both turn, as a bar that is bent about its middle does when it parts there.
     assert!(linear.y.abs() < 0.02 * fair && linear.z.abs() < 0.02 * fair);
@@ -244,8 +244,8 @@ fn held_bodies_and_odd_pieces_keep_their_energy_finite() {
     let held = vec![Support::clamped(Region::below(0, 0.01))];
     let cantilever = body(bar(BAR[0], 30, held));
     let few = body(bar(BAR[0], 3, Vec::new()));
-    let one_tet = few.asset().fracture.tets[700];
-    let positions = few.asset().fracture.positions.clone();
+    let one_tet = few.asset().fracture().tets[700];
+    let positions = few.asset().fracture().positions.clone();
     let single = move |p: Vec3| usize::from(one_tet.iter().any(|&v| positions[v as usize] == p));
     let scattered = |p: Vec3| ((p.x * 977.0 + p.y * 4409.0 + p.z * 2711.0).abs() as usize) % 40;
     // Name, body, piece of each place, and how many pieces move on their own.

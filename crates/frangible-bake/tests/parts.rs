@@ -6,7 +6,7 @@ use frangible::Material;
 use frangible::glam::DVec3;
 use frangible_bake::frangible_mesh::{InputMesh, PartChoice};
 use frangible_bake::{
-    BakeError, BakeSpec, ImportOptions, bake, bake_file, import_mesh, import_parts,
+    BakeError, BakeSpec, Baked, ImportOptions, bake_file, bake_with, import_mesh, import_parts,
 };
 
 fn add_box(mesh: &mut InputMesh, low: DVec3, high: DVec3) {
@@ -90,11 +90,11 @@ fn parts_are_bodies_with_the_volume_and_the_mass_of_their_surfaces() {
         assert!(part.centre.distance(centre) < 1e-9);
         let mut spec = BakeSpec::new(part.name, part.body.shape, glass.clone());
         spec.modes = 4;
-        let (asset, report) = bake(&spec, &mut |_| {}).unwrap();
+        let Baked { asset, report } = bake_with(&spec, |_| {}).unwrap();
         // The lattice misses 2 % of the ball at this size, and a thousandth at the box's corners.
         assert!((report.closed_volume.unwrap() / volume - 1.0).abs() < 1e-9);
         assert!((report.fracture.volume / volume - 1.0).abs() < 2e-3);
-        assert!((asset.mass.mass / (glass.density * volume) - 1.0).abs() < 2e-3);
+        assert!((asset.mass().mass / (glass.density * volume) - 1.0).abs() < 2e-3);
         assert!(report.centre.distance(centre) < 2e-4, "{}", report.centre);
     }
 }
@@ -108,8 +108,8 @@ fn a_ball_has_its_volume_at_any_resolution() {
         let shape = import_mesh(&mesh, &options(tets)).unwrap().shape;
         let mut spec = BakeSpec::new("ball", shape, Material::preset("glass").unwrap());
         spec.modes = 2;
-        let (asset, report) = bake(&spec, &mut |_| {}).unwrap();
-        assert!((asset.mass.volume / volume - 1.0).abs() < 1e-5);
+        let Baked { asset, report } = bake_with(&spec, |_| {}).unwrap();
+        assert!((asset.mass().volume / volume - 1.0).abs() < 1e-5);
         assert!(report.fracture.min_dihedral >= 10.0);
     }
 }
@@ -173,13 +173,13 @@ fn a_file_gives_an_asset_for_each_part() {
     }
     std::fs::write(&path, text).unwrap();
     let glass = Material::preset("glass").unwrap();
-    let baked = bake_file(&path, &glass, &options(1600), &mut |_| {});
+    let baked = bake_file(&path, &glass, &options(1600));
     std::fs::remove_file(&path).unwrap();
     let baked = baked.unwrap();
-    let names: Vec<&str> = baked.iter().map(|(asset, _)| &*asset.name).collect();
+    let names: Vec<&str> = baked.iter().map(|part| part.asset.name()).collect();
     assert_eq!(names, ["left", "right"]);
-    let apart = baked[1].1.centre - baked[0].1.centre;
+    let apart = baked[1].report.centre - baked[0].report.centre;
     assert!(apart.distance(0.12 * DVec3::X) < 1e-4, "{apart}");
-    let missing = bake_file(&path, &glass, &options(1600), &mut |_| {}).unwrap_err();
+    let missing = bake_file(&path, &glass, &options(1600)).unwrap_err();
     assert!(matches!(missing, BakeError::File { .. }), "{missing}");
 }

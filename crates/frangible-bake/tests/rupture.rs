@@ -9,7 +9,7 @@ use frangible_bake::Shape;
 /// A body whose strength scatters as its material's preset says.
 fn kind(size: [f64; 3], material: &str, resolution: f64) -> frangible::Breakable {
     let plain = breakable(Shape::block(size), material, resolution, 60);
-    let fields = Fields::of_material(&plain.asset().material);
+    let fields = Fields::of_material(plain.asset().material());
     plain.with_fields(fields).expect("fields of its own asset")
 }
 
@@ -55,7 +55,7 @@ fn a_bent_brick_bears_more_than_its_tensile_strength() {
         let force = bears(&kind.body(seed), [span, height]);
         1.5 * force * span / (width * height * height)
     });
-    let ratio = mean(ruptures) / kind.asset().material.strength;
+    let ratio = mean(ruptures) / kind.asset().material().strength;
     println!("modulus of rupture over tensile strength: {ratio:.2}");
     assert!((1.1..2.95).contains(&ratio), "{ratio}");
 }

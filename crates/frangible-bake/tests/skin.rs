@@ -5,7 +5,7 @@ use std::sync::Arc;
 use frangible::glam::Vec3;
 use frangible::internals::stress::Skin;
 use frangible::internals::{Force, rest};
-use frangible::{Asset, Body, FractureConfig, Material};
+use frangible::{Asset, Breakable, FractureConfig, Material};
 use frangible_bake::{BakeSpec, MeshSize, Region, Shape, Support, bake};
 
 const SIZE: [f64; 3] = [0.2, 0.1, 0.006];
@@ -27,7 +27,7 @@ fn baked(shape: Shape, layers: usize, supports: Vec<Support>) -> Asset {
         supports,
         ..BakeSpec::new("body", shape, material)
     };
-    bake(&spec, &mut |_| {}).unwrap().0
+    bake(&spec).unwrap()
 }
 
 fn plate(layers: usize) -> Asset {
@@ -37,23 +37,23 @@ fn plate(layers: usize) -> Asset {
 /// Stresses of one mode, a bar bent to the curvature 1 about y [Timoshenko, Goodier, art. 102], and a stretch across it that
 /// a mesh of one layer cannot tell from nothing: E_zz = `noise` · z.
 fn bent(mut asset: Asset, noise: f32) -> Asset {
-    let nu = asset.material.poisson_ratio as f32;
+    let nu = asset.material().poisson_ratio as f32;
     let middle = middle(&asset);
-    let rows = asset.analysis.nodes.iter().flat_map(|&p| {
+    let rows = asset.analysis().nodes.iter().flat_map(|&p| {
         let Vec3 { x, y, z } = p - middle;
         let down = -0.5 * (x * x + nu * (z * z - y * y)) + 0.5 * noise * z * z;
         [x * z, -nu * y * z, down]
     });
-    asset.modes.shapes = rows.collect();
-    asset.modes.eigenvalues.truncate(1);
-    asset.material.weak_point_density = 1e15;
-    asset.material.strength = 1e12;
+    asset.parts_mut().modes.shapes = rows.collect();
+    asset.parts_mut().modes.eigenvalues.truncate(1);
+    asset.parts_mut().material.weak_point_density = 1e15;
+    asset.parts_mut().material.strength = 1e12;
     asset.restressed()
 }
 
 /// The middle of the box around the body: the origin, its centre of mass, is a little off.
 fn middle(asset: &Asset) -> Vec3 {
-    let p = &asset.fracture.positions;
+    let p = &asset.fracture().positions;
     let low = p.iter().copied().fold(Vec3::INFINITY, Vec3::min);
     let high = p.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
     0.5 * (low + high)
@@ -65,14 +65,14 @@ fn peak(asset: &Asset, config: &FractureConfig) -> f64 {
     let point = middle(asset) + Vec3::new(0.1, 0.0, 0.003);
     let wanted = 1e-5;
     let shape = -0.5 * (0.1_f64 * 0.1 + 0.23 * 0.003 * 0.003);
-    let force = Vec3::Z * (wanted * asset.modes.eigenvalues[0] / shape) as f32;
-    let body = Body::new(Arc::new(asset.clone()), 1).unwrap();
+    let force = Vec3::Z * (wanted * asset.modes().eigenvalues[0] / shape) as f32;
+    let body = Breakable::uniform(Arc::new(asset.clone())).unwrap().body(1);
     let forces = [Force { point, force }];
     let report = rest(&body, &forces, Vec3::ZERO, config)
         .unwrap()
         .report()
         .clone();
-    let skin = asset.material.youngs_modulus * wanted * 0.5 * SIZE[2];
+    let skin = asset.material().youngs_modulus * wanted * 0.5 * SIZE[2];
     report.peak_stress / skin
 }
 
@@ -107,7 +107,7 @@ fn a_bent_plate_of_one_layer_has_the_stress_of_its_skin() {
 fn no_bound_is_below_the_stress_of_the_skin() {
     for noise in [0.0, 0.5, -2.0] {
         let asset = bent(plate(1), noise);
-        let body = Body::new(Arc::new(asset.clone()), 1).unwrap();
+        let body = Breakable::uniform(Arc::new(asset.clone())).unwrap().body(1);
         let force = [Force {
             point: Vec3::new(0.1, 0.0, 0.0),
             force: Vec3::Z * 1e3,
@@ -129,22 +129,23 @@ fn flaws_lie_on_the_largest_free_face() {
         let skin = Skin::of(&asset);
         let area = |t: usize| {
             let [a, b, c] =
-                asset.surface.triangles[t].map(|v| asset.fracture.positions[v as usize]);
+                asset.surface().triangles[t].map(|v| asset.fracture().positions[v as usize]);
             (b - a).cross(c - a).length()
         };
         let mut flaws = 0;
-        for (t, &tet) in asset.surface.tets.iter().enumerate() {
+        for (t, &tet) in asset.surface().tets.iter().enumerate() {
             let flaw = skin.flaw(tet as usize).unwrap();
             assert!(area(t) <= area(flaw.triangle as usize));
             if flaw.triangle as usize != t {
                 continue;
             }
             flaws += 1;
-            let corners = asset.surface.triangles[t].map(|v| asset.fracture.positions[v as usize]);
+            let corners =
+                asset.surface().triangles[t].map(|v| asset.fracture().positions[v as usize]);
             let centroid = corners.iter().sum::<Vec3>() / 3.0;
-            let element = asset.analysis.elements[flaw.point.element as usize];
+            let element = asset.analysis().elements[flaw.point.element as usize];
             let place: Vec3 = (0..4)
-                .map(|k| flaw.point.barycentric[k] * asset.analysis.nodes[element[k] as usize])
+                .map(|k| flaw.point.barycentric[k] * asset.analysis().nodes[element[k] as usize])
                 .sum();
             assert!(centroid.distance(place + flaw.point.offset) < 1e-6);
             assert!(flaw.point.offset.length() < off, "{}", flaw.point.offset);
@@ -159,10 +160,10 @@ fn walls_are_what_is_thinner_than_its_elements_are_long() {
     for layers in [1, 2] {
         let asset = plate(layers);
         let skin = Skin::of(&asset);
-        for e in 0..asset.fracture.tets.len() {
+        for e in 0..asset.fracture().tets.len() {
             let wall = skin.wall(&asset, e).unwrap();
             assert!(wall.normal.z.abs() > 0.999, "{}", wall.normal);
-            let [front, back] = wall.distances(asset.fracture.centroid(e));
+            let [front, back] = wall.distances(asset.fracture().centroid(e));
             assert!(front > 0.0 && back < 0.0, "{front} {back}");
             let thickness = front - back;
             assert!((f64::from(thickness) - SIZE[2]).abs() < 1e-5, "{thickness}");
@@ -170,7 +171,7 @@ fn walls_are_what_is_thinner_than_its_elements_are_long() {
     }
     let glass = baked(Shape::drinking_glass(), 1, Vec::new());
     let skin = Skin::of(&glass);
-    let tets = glass.fracture.tets.len();
+    let tets = glass.fracture().tets.len();
     let walled = (0..tets)
         .filter(|&e| skin.wall(&glass, e).is_some())
         .count();
@@ -178,20 +179,25 @@ fn walls_are_what_is_thinner_than_its_elements_are_long() {
     assert!(walled * 10 > tets * 8);
     // From a centre in a curved wall both faces are within its thickness, one before and one behind.
     let astray = (0..tets)
-        .filter_map(|e| Some(skin.wall(&glass, e)?.distances(glass.fracture.centroid(e))))
+        .filter_map(|e| {
+            Some(
+                skin.wall(&glass, e)?
+                    .distances(glass.fracture().centroid(e)),
+            )
+        })
         .filter(|[front, back]| *front < 0.0 || *back > 0.0)
         .count();
     assert!(astray * 20 < tets, "{astray} of {tets}");
     let block = baked(Shape::block([0.06, 0.05, 0.04]), 0, Vec::new());
     let skin = Skin::of(&block);
-    assert!((0..block.fracture.tets.len()).all(|e| skin.wall(&block, e).is_none()));
+    assert!((0..block.fracture().tets.len()).all(|e| skin.wall(&block, e).is_none()));
 }
 
 #[test]
 fn a_rod_is_no_wall() {
     let walled = |asset: &Asset, counts: &dyn Fn(Vec3) -> bool| {
         let skin = Skin::of(asset);
-        let mesh = &asset.fracture;
+        let mesh = asset.fracture();
         let counted = (0..mesh.tets.len()).filter(|&e| counts(mesh.centroid(e)));
         let counted: Vec<usize> = counted.collect();
         let walled = counted.iter().filter(|&&e| skin.wall(asset, e).is_some());
@@ -215,16 +221,16 @@ fn held_faces_are_not_free() {
     let (free, held) = (baked(shape(), 1, Vec::new()), baked(shape(), 1, clamped));
     let flaws = |asset: &Asset| {
         let skin = Skin::of(asset);
-        (0..asset.fracture.tets.len())
+        (0..asset.fracture().tets.len())
             .filter(|&e| skin.flaw(e).is_some())
             .count()
     };
     let asset = &held;
     let skin = Skin::of(asset);
-    for e in 0..asset.fracture.tets.len() {
+    for e in 0..asset.fracture().tets.len() {
         if let Some(flaw) = skin.flaw(e) {
-            let nodes = asset.surface.triangles[flaw.triangle as usize];
-            let all = nodes.iter().all(|v| asset.supported.contains(v));
+            let nodes = asset.surface().triangles[flaw.triangle as usize];
+            let all = nodes.iter().all(|v| asset.supported().contains(v));
             assert!(!all, "tetrahedron {e} has its flaw on a held face");
         }
     }

@@ -10,8 +10,8 @@ use frangible_bake::frangible_mesh::{
     DistanceSolid, Image, ImageKind, InputMaterial, InputMesh, TetError, Texture, TextureSlot,
 };
 use frangible_bake::{
-    BakeError, BakeReport, BakeSpec, ImportOptions, READY_SHAPES, Shape, SolidShape, bake,
-    import_mesh,
+    BakeError, BakeReport, BakeSpec, Baked, ImportOptions, READY_SHAPES, Shape, SolidShape, bake,
+    bake_with, import_mesh,
 };
 
 const BLOCK: [f64; 3] = [0.1, 0.06, 0.03];
@@ -30,7 +30,7 @@ fn solid(solid: DistanceSolid, tets: usize) -> Shape {
 fn baked(shape: Shape, modes: usize) -> (Asset, BakeReport) {
     let mut spec = BakeSpec::new("body", shape, glass());
     spec.modes = modes;
-    let (asset, report) = bake(&spec, &mut |_| {}).unwrap();
+    let Baked { asset, report } = bake_with(&spec, |_| {}).unwrap();
     asset.validate().unwrap();
     (asset, report)
 }
@@ -112,11 +112,11 @@ fn a_block_rings_the_same_by_rule_by_distance_and_by_mesh() {
                 "by {how}: mode {i} at {f} Hz, not {g}"
             );
         }
-        let mass = asset.mass.mass / reference.mass.mass;
+        let mass = asset.mass().mass / reference.mass().mass;
         assert!((mass - 1.0).abs() < 0.01, "by {how}: {mass} of the mass");
         // The origin is the centre of mass: the sides lie half the size to either side of it.
         let cell = report.tetrahedra.unwrap().cell as f32;
-        for (corner, sign) in bounds(&asset.fracture.positions)
+        for (corner, sign) in bounds(&asset.fracture().positions)
             .into_iter()
             .zip([-1.0, 1.0])
         {
@@ -159,9 +159,9 @@ fn a_thin_walled_beaker_keeps_its_wall_and_rings_in_pairs() {
     let (asset, report) = baked(imported.shape, 8);
     let mass = glass().density * volume;
     assert!(
-        (asset.mass.mass / mass - 1.0).abs() < 0.02,
+        (asset.mass().mass / mass - 1.0).abs() < 0.02,
         "{} kg, not {mass} kg",
-        asset.mass.mass
+        asset.mass().mass
     );
     assert!(report.tetrahedra.is_none(), "a lattice");
     // Ovalling is two-fold on a body of revolution: whatever parts the pair is error of the mesh.
@@ -200,17 +200,17 @@ fn every_ready_shape_bakes() {
 
 /// Every cell has tetrahedra, and one can walk through faces between any two of them without leaving the cell.
 fn assert_cells_hold_together(asset: &Asset) {
-    let mesh = &asset.fracture;
+    let mesh = asset.fracture();
     let mut is_reached = vec![false; mesh.tets.len()];
-    for cell in 0..asset.cells.len() as u32 {
-        let first = asset.cell_of_tet.iter().position(|&c| c == cell);
+    for cell in 0..asset.cells().len() as u32 {
+        let first = asset.cell_of_tet().iter().position(|&c| c == cell);
         let first = first.unwrap_or_else(|| panic!("cell {cell} is empty"));
         let mut front = vec![first];
         is_reached[first] = true;
         while let Some(e) = front.pop() {
             for &n in mesh.neighbours[e].iter().filter(|&&n| n != NO_NEIGHBOUR) {
                 let n = n as usize;
-                if asset.cell_of_tet[n] == cell && !is_reached[n] {
+                if asset.cell_of_tet()[n] == cell && !is_reached[n] {
                     is_reached[n] = true;
                     front.push(n);
                 }
@@ -234,9 +234,9 @@ fn an_open_mesh_is_closed_across_its_hole() {
     // Over the plane of the hole the five other sides fill half of the sky: the winding number is a half there.
     let volume: f64 = BLOCK.iter().product();
     assert!(
-        (asset.mass.volume / volume - 1.0).abs() < 0.03,
+        (asset.mass().volume / volume - 1.0).abs() < 0.03,
         "{} m³, not {volume} m³",
-        asset.mass.volume
+        asset.mass().volume
     );
 }
 
@@ -299,8 +299,8 @@ fn the_drawn_surface_comes_through_untouched_and_lies_on_the_body() {
             render: imported.render,
             ..BakeSpec::new("box", imported.shape, glass())
         };
-        let (asset, report) = bake(&spec, &mut |_| {}).unwrap();
-        let render = asset.render.as_ref().unwrap();
+        let Baked { asset, report } = bake_with(&spec, |_| {}).unwrap();
+        let render = asset.render().unwrap();
         assert_eq!(render.positions.len(), mesh.positions.len());
         assert_eq!(render.triangles, mesh.triangles);
         assert_eq!(render.normals, mesh.normals);
@@ -313,7 +313,10 @@ fn the_drawn_surface_comes_through_untouched_and_lies_on_the_body() {
         let more: Vec<Vec2> = render.more_uvs[0].iter().copied().map(Vec2::from).collect();
         assert_eq!(more, mesh.more_uvs[0]);
         let cell = report.tetrahedra.unwrap().cell as f32;
-        let (drawn, solid) = (bounds(&render.positions), bounds(&asset.fracture.positions));
+        let (drawn, solid) = (
+            bounds(&render.positions),
+            bounds(&asset.fracture().positions),
+        );
         for (drawn, solid) in drawn.into_iter().zip(solid) {
             let apart = (drawn - solid).abs().max_element();
             assert!(apart < 2.0 * cell, "{apart} m apart, in cells of {cell} m");
@@ -344,7 +347,7 @@ fn walls_too_thin_for_the_limit_are_refused_with_a_number_that_is_enough() {
         (options.tets, options.most) = (tets, most);
         import_mesh(&mesh, &options).unwrap().shape
     };
-    let refused = |shape: Shape| bake(&BakeSpec::new("beaker", shape, glass()), &mut |_| {});
+    let refused = |shape: Shape| bake(&BakeSpec::new("beaker", shape, glass()));
     let error = refused(with(2000, Some(2000))).unwrap_err();
     let BakeError::Tetrahedra(TetError::TooThin { needed, .. }) = error else {
         panic!("{error}");
@@ -352,6 +355,6 @@ fn walls_too_thin_for_the_limit_are_refused_with_a_number_that_is_enough() {
     assert!(needed > 2000 && error.to_string().contains(&needed.to_string()));
     let mut spec = BakeSpec::new("beaker", with(needed, None), glass());
     spec.modes = 2;
-    let (_, report) = bake(&spec, &mut |_| {}).unwrap();
+    let report = bake_with(&spec, |_| {}).unwrap().report;
     assert!(report.fracture.tets <= 3 * needed);
 }

@@ -4,14 +4,15 @@ use std::f64::consts::{PI, TAU};
 
 use crate::common::{assert_near, held_modes};
 use frangible::glam::{DVec3, Vec3};
-use frangible::{Asset, Body, Contact, FractureConfig, Material, Outcome, Striker, impact};
+use frangible::{Asset, Breakable, Contact, FractureConfig, Material, Outcome, Striker, impact};
 use frangible_bake::eigen::{Constraints, Modes, remaining_motions};
 use frangible_bake::fem::{
     Cover, Elasticity, Elements, QuadraticMesh, System, assemble, assemble_supported_cover,
 };
 use frangible_bake::frangible_mesh::InputMesh;
 use frangible_bake::{
-    BakeError, BakeSpec, Group, ImportOptions, MeshSize, Region, Shape, Support, bake, import_mesh,
+    BakeError, BakeSpec, Baked, Group, ImportOptions, MeshSize, Region, Shape, Support, bake,
+    bake_with, import_mesh,
 };
 
 const GLASS: Elasticity = Elasticity {
@@ -212,7 +213,7 @@ fn a_cantilever_of_any_shape_rings_at_its_bending_frequency() {
             supports: vec![Support::clamped(Region::below(0, held))],
             ..BakeSpec::new("bar", bar(free + held, 0.02), glass.clone())
         };
-        let (asset, report) = bake(&spec, &mut |_| {}).unwrap();
+        let Baked { asset, report } = bake_with(&spec, |_| {}).unwrap();
         assert_eq!(report.rigid_motions, 0);
         let reference = cantilever(&Elasticity::from(&glass), free, 0.02);
         for frequency in &report.frequencies[..2] {
@@ -223,10 +224,10 @@ fn a_cantilever_of_any_shape_rings_at_its_bending_frequency() {
                 &format!("{held} m, {elements:?}"),
             );
         }
-        let along = || asset.fracture.positions.iter().map(|p| p.x);
+        let along = || asset.fracture().positions.iter().map(|p| p.x);
         let limit = along().fold(f32::INFINITY, f32::min) + held as f32 + 1e-6;
         assert_eq!(
-            asset.supported.len(),
+            asset.supported().len(),
             along().filter(|x| *x < limit).count()
         );
     }
@@ -242,7 +243,7 @@ fn springs_that_hold_one_axis_leave_the_motions_across_it() {
         }],
         ..BakeSpec::new("bar", bar(0.1, 0.02), Material::preset("glass").unwrap())
     };
-    let (_, report) = bake(&spec, &mut |_| {}).unwrap();
+    let report = bake_with(&spec, |_| {}).unwrap().report;
     // Along y, along z, about x.
     assert_eq!(report.rigid_motions, 3);
     assert!(report.frequencies[0] > 1000.0, "{:?}", report.frequencies);
@@ -275,19 +276,19 @@ fn an_asset_knows_its_supported_nodes() {
         Support::clamped(Region::below(0, 0.0)),
         Support::clamped(ball),
     ]);
-    let (asset, report) = bake(&spec, &mut |_| {}).unwrap();
+    let Baked { asset, report } = bake_with(&spec, |_| {}).unwrap();
     assert!(asset.is_supported());
-    assert!(report.unknowns < 3 * asset.analysis.nodes.len());
+    assert!(report.unknowns < 3 * asset.analysis().nodes.len());
     let centre = DVec3::new(0.1, 0.1, 0.005);
-    for (v, p) in asset.fracture.positions.iter().enumerate() {
+    for (v, p) in asset.fracture().positions.iter().enumerate() {
         let p = p.as_dvec3() + centre;
         let inside = p.x < 1e-6 || p.distance(DVec3::new(0.2, 0.2, 0.005)) < 0.03;
-        let supported = asset.supported.contains(&(v as u32));
+        let supported = asset.supported().contains(&(v as u32));
         // The irregular mesh has its centre of mass within a fraction of a millimetre.
         let near = p.x < 1e-3 || (p.distance(DVec3::new(0.2, 0.2, 0.005)) - 0.03).abs() < 1e-3;
         assert!(supported == inside || near, "node {v} at {p}");
     }
-    let (free, _) = bake(&small_plate(Vec::new()), &mut |_| {}).unwrap();
+    let free = bake(&small_plate(Vec::new())).unwrap();
     assert!(!free.is_supported());
 }
 
@@ -303,17 +304,15 @@ fn a_shelf_that_breaks_leaves_a_piece_in_the_wall() {
         edge: 0.008,
         layers: 1,
     });
-    let (asset, _) = bake(&spec, &mut |_| {}).unwrap();
+    let asset = bake(&spec).unwrap();
     let read = Asset::from_bytes(&asset.to_bytes()).unwrap();
-    assert_eq!(read.supported, asset.supported);
-    let body = Body::new(read.into(), 1).unwrap();
-    let striker = Striker {
-        contact_modulus: 2.3e11,
-        inverse_effective_mass: 0.5,
-        curvature_radius: 0.02,
-        restitution: 0.5,
-        ..Striker::rigid()
-    };
+    assert_eq!(read.supported(), asset.supported());
+    let body = Breakable::uniform(read).unwrap().body(1);
+    let striker = Striker::rigid()
+        .with_contact_modulus(2.3e11)
+        .with_effective_mass(2.0)
+        .with_curvature_radius(0.02)
+        .with_restitution(0.5);
     // Impulse of a ball of 2 kg against a body that does not give way.
     let impulse = |speed: f32| 1.5 * 2.0 * speed;
     let point = Vec3::new(0.09, 0.0, 0.005);
@@ -364,7 +363,7 @@ fn supports_that_cannot_be_meant_are_errors_that_name_them() {
     ];
     for (region, words) in cases {
         let spec = small_plate(vec![good.clone(), good.clone(), Support::clamped(region)]);
-        let error = bake(&spec, &mut |_| {}).unwrap_err();
+        let error = bake(&spec).unwrap_err();
         assert!(
             matches!(error, BakeError::Support { support: 2, .. }),
             "{error}"
@@ -379,12 +378,10 @@ fn supports_that_cannot_be_meant_are_errors_that_name_them() {
         axes: [false; 3],
         ..good
     };
-    let error = bake(&small_plate(vec![idle]), &mut |_| {})
-        .unwrap_err()
-        .to_string();
+    let error = bake(&small_plate(vec![idle])).unwrap_err().to_string();
     assert!(error.contains("fixes no axis"), "{error}");
     let all = Support::clamped(Region::below(2, 1.0));
-    let error = bake(&small_plate(vec![all]), &mut |_| {}).unwrap_err();
+    let error = bake(&small_plate(vec![all])).unwrap_err();
     assert_eq!(error, BakeError::AllHeld);
     // Between the nodes that carry the modes, 25 mm apart, but not between those of the cracks.
     let spot = cuboid(
@@ -396,7 +393,7 @@ fn supports_that_cannot_be_meant_are_errors_that_name_them() {
         edge: 0.006,
         layers: 1,
     });
-    let error = bake(&spec, &mut |_| {}).unwrap_err();
+    let error = bake(&spec).unwrap_err();
     assert!(error.to_string().contains("refine the"), "{error}");
 }
 
@@ -406,11 +403,11 @@ fn a_plate_held_along_z_keeps_three_motions() {
         region: Region::below(2, 0.0),
         axes: [false, false, true],
     }]);
-    let (_, report) = bake(&spec, &mut |_| {}).unwrap();
+    let report = bake_with(&spec, |_| {}).unwrap().report;
     // Along x, along y, about z.
     assert_eq!(report.rigid_motions, 3);
     spec.supports[0].axes = [true; 3];
-    let (_, report) = bake(&spec, &mut |_| {}).unwrap();
+    let report = bake_with(&spec, |_| {}).unwrap().report;
     assert_eq!(report.rigid_motions, 0);
 }
 
@@ -433,15 +430,21 @@ fn end_face() -> Group {
 #[test]
 fn a_group_holds_what_the_same_region_holds() {
     let by_region = small_plate(vec![Support::clamped(Region::below(0, 0.0))]);
-    let (region, at_region) = bake(&by_region, &mut |_| {}).unwrap();
+    let Baked {
+        asset: region,
+        report: at_region,
+    } = bake_with(&by_region, |_| {}).unwrap();
     let mut by_group = small_plate(vec![Support::clamped(Region::Group("wall".into()))]);
     by_group.groups.push(end_face());
-    let (group, at_group) = bake(&by_group, &mut |_| {}).unwrap();
-    assert_eq!(region.supported, group.supported);
+    let Baked {
+        asset: group,
+        report: at_group,
+    } = bake_with(&by_group, |_| {}).unwrap();
+    assert_eq!(region.supported(), group.supported());
     assert_eq!(at_region.frequencies, at_group.frequencies);
     // Its nodes one by one are the same part.
     let origin = region
-        .fracture
+        .fracture()
         .positions
         .iter()
         .fold(DVec3::INFINITY, |low, p| low.min(p.as_dvec3()));
@@ -449,19 +452,19 @@ fn a_group_holds_what_the_same_region_holds() {
         name: "wall".into(),
         triangles: end_face().triangles.into_iter().take(2).collect(),
         points: region
-            .supported
+            .supported()
             .iter()
-            .map(|&v| region.fracture.positions[v as usize].as_dvec3() - origin)
+            .map(|&v| region.fracture().positions[v as usize].as_dvec3() - origin)
             .collect(),
     }];
-    let (points, _) = bake(&by_group, &mut |_| {}).unwrap();
-    assert_eq!(region.supported, points.supported);
+    let points = bake(&by_group).unwrap();
+    assert_eq!(region.supported(), points.supported());
 }
 
 #[test]
 fn an_unknown_group_is_refused_with_the_names_there_are() {
     let mut spec = small_plate(vec![Support::clamped(Region::Group("wal".into()))]);
-    let message = |spec: &BakeSpec| bake(spec, &mut |_| {}).unwrap_err().to_string();
+    let message = |spec: &BakeSpec| bake(spec).unwrap_err().to_string();
     assert!(
         message(&spec).contains("this body has no groups"),
         "{}",

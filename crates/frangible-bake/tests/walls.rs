@@ -6,7 +6,9 @@ use frangible::glam::{DVec3, Vec3};
 use frangible::internals::asset::SurfaceWall;
 use frangible::{Asset, Material};
 use frangible_bake::frangible_mesh::DistanceSolid;
-use frangible_bake::{BakeSpec, MeshSize, Region, Shape, SolidShape, Station, Support, bake};
+use frangible_bake::{
+    BakeSpec, Baked, MeshSize, Region, Shape, SolidShape, Station, Support, bake_with,
+};
 
 fn baked(shape: Shape, supports: Vec<Support>, edge: Option<f64>) -> Asset {
     let mut spec = BakeSpec::new("body", shape, Material::preset("glass").unwrap());
@@ -17,11 +19,11 @@ fn baked(shape: Shape, supports: Vec<Support>, edge: Option<f64>) -> Asset {
     };
     spec.fracture = edge.map(|edge| MeshSize { edge, layers: 0 });
     spec.supports = supports;
-    let (asset, report) = bake(&spec, &mut |_| {}).unwrap();
+    let Baked { asset, report } = bake_with(&spec, |_| {}).unwrap();
     for (stage, seconds) in report.seconds {
         println!("{stage}: {seconds:.3} s");
     }
-    println!("{} triangles", asset.surface.triangles.len());
+    println!("{} triangles", asset.surface().triangles.len());
     asset
 }
 
@@ -29,13 +31,13 @@ fn baked(shape: Shape, supports: Vec<Support>, edge: Option<f64>) -> Asset {
 fn walls(asset: &Asset) -> Vec<(Vec3, Option<SurfaceWall>)> {
     let centroid = |t: &[u32; 3]| {
         t.iter()
-            .map(|&v| asset.fracture.positions[v as usize])
+            .map(|&v| asset.fracture().positions[v as usize])
             .sum::<Vec3>()
             / 3.0
     };
-    let triangles = asset.surface.triangles.iter().enumerate();
+    let triangles = asset.surface().triangles.iter().enumerate();
     triangles
-        .map(|(t, corners)| (centroid(corners), asset.surface.walls.at(t as u32)))
+        .map(|(t, corners)| (centroid(corners), asset.surface().walls.at(t as u32)))
         .collect()
 }
 
@@ -84,9 +86,9 @@ fn what_holds_a_pane_is_an_edge_of_its_wall_on_both_faces() {
     let strip = Support::clamped(Region::below(0, 0.05));
     let asset = baked(Shape::plate(0.4, 0.4, 0.004), vec![strip], Some(0.008));
     let start = asset
-        .supported
+        .supported()
         .iter()
-        .map(|&v| asset.fracture.positions[v as usize].x)
+        .map(|&v| asset.fracture().positions[v as usize].x)
         .fold(-1.0, f32::max);
     for (p, wall) in walls(&asset) {
         let Some(wall) = wall else { continue };
@@ -116,7 +118,7 @@ fn solids_have_no_walls() {
         ball,
     ] {
         let asset = baked(shape.clone(), Vec::new(), None);
-        assert!(asset.surface.walls.is_empty(), "{shape:?}");
+        assert!(asset.surface().walls.is_empty(), "{shape:?}");
     }
 }
 
@@ -157,7 +159,7 @@ fn the_side_of_a_cup_is_a_tube() {
 }
 
 fn bounds(asset: &Asset) -> (f32, f32) {
-    let z = asset.fracture.positions.iter().map(|p| p.z);
+    let z = asset.fracture().positions.iter().map(|p| p.z);
     (
         z.clone().fold(f32::INFINITY, f32::min),
         z.fold(f32::NEG_INFINITY, f32::max),

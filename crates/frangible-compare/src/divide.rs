@@ -43,10 +43,10 @@ impl<'a> Division<'a> {
         at: impl Fn(u32, u32) -> f64,
     ) -> Result<Self, CompareError> {
         let asset = body.asset();
-        if asset.portion.is_some() {
-            return Err(CompareError::Piece(asset.name.clone()));
+        if asset.portion().is_some() {
+            return Err(CompareError::Piece(asset.name().to_owned()));
         }
-        let nodes = asset.fracture.positions.len();
+        let nodes = asset.fracture().positions.len();
         if label_of_node.len() != nodes {
             return Err(CompareError::Labels(format!(
                 "there are {} labels for the {nodes} nodes of its fracture mesh; give one for each",
@@ -54,7 +54,7 @@ impl<'a> Division<'a> {
             )));
         }
         let mut parted: Vec<[u32; 2]> = Vec::new();
-        for tet in &asset.fracture.tets {
+        for tet in &asset.fracture().tets {
             for i in 0..4 {
                 for &b in &tet[i + 1..] {
                     let a = tet[i];

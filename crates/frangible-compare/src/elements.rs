@@ -57,7 +57,7 @@ pub(crate) fn separate(hit: Hit<'_>) -> Result<Separated, CompareError> {
 fn open(hit: Hit<'_>, moment: &mut Moment<'_>, faces: &mut Faces<'_>) {
     let asset = hit.body.asset();
     let skin = Skin::of(asset);
-    let in_wall = bent(asset.material.poisson_ratio);
+    let in_wall = bent(asset.material().poisson_ratio);
     let instant = hit.config.is_paper();
     let mut starts: Vec<(f32, u32)> = Vec::new();
     for &tet in hit.body.weak_tets() {
@@ -73,7 +73,7 @@ fn open(hit: Hit<'_>, moment: &mut Moment<'_>, faces: &mut Faces<'_>) {
         if faces.is_touched(tet) {
             continue;
         }
-        let middle = asset.fracture.centroid(tet as usize);
+        let middle = asset.fracture().centroid(tet as usize);
         let mut stress = moment.at_weak_point(tet).stress;
         if !instant {
             let wall = skin.wall(asset, tet as usize);

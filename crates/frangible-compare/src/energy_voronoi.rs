@@ -43,7 +43,7 @@ pub(crate) fn divide<'a>(
 ) -> Result<(Division<'a>, f64), CompareError> {
     let wave = Wave::new(hit)?;
     let mut moment = wave.at(wave.most_strained());
-    let mesh = &hit.body.asset().fracture;
+    let mesh = hit.body.asset().fracture();
     let energies: Vec<f64> = (0..mesh.tets.len() as u32)
         .map(|tet| f64::from(moment.inside(tet).energy_density).max(0.0))
         .collect();
@@ -65,7 +65,7 @@ pub(crate) fn divide<'a>(
 /// Borders of the same two cells as one, the best paid first.
 fn seams(hit: Hit<'_>, moment: &mut Moment<'_>, mut borders: Vec<Border>) -> Vec<Seam> {
     borders.sort_by_key(|border| (border.between, border.tet));
-    let depth = hit.body.asset().material.energy_depth;
+    let depth = hit.body.asset().material().energy_depth;
     let mut seams: Vec<Seam> = Vec::new();
     for group in borders.chunk_by(|a, b| a.between == b.between) {
         let mut seam = Seam {

@@ -12,7 +12,7 @@ use crate::plane_crack::{Faces, face, face_area};
 /// Tetrahedra that are connected over closed faces, largest first. A piece smaller than `crumb_share` of the body's volume stays with the neighbour
 /// it shares most area with, as in ours.
 pub(crate) fn face_pieces(body: &Body, faces: &Faces<'_>, crumb_share: f64) -> Vec<Fragment> {
-    let mesh: &TetMesh = &body.asset().fracture;
+    let mesh: &TetMesh = body.asset().fracture();
     let (mut piece_of, mut volumes) = components(mesh, faces);
     absorb_crumbs(mesh, &mut piece_of, &mut volumes, crumb_share);
     let mut order: Vec<usize> = (0..volumes.len()).filter(|&p| volumes[p] > 0.0).collect();
@@ -114,8 +114,8 @@ fn shared_areas(mesh: &TetMesh, of_tet: &[u32]) -> Vec<BTreeMap<u32, f64>> {
 /// Triangles of the outer surface behind which each tetrahedron lies.
 fn outer_triangles(body: &Body) -> Vec<Vec<u32>> {
     let asset = body.asset();
-    let mut of_tet = vec![Vec::new(); asset.fracture.tets.len()];
-    for (triangle, &tet) in (0..).zip(&asset.surface.tets) {
+    let mut of_tet = vec![Vec::new(); asset.fracture().tets.len()];
+    for (triangle, &tet) in (0..).zip(&asset.surface().tets) {
         of_tet[tet as usize].push(triangle);
     }
     of_tet
@@ -136,13 +136,14 @@ impl Builder<'_> {
     fn fragment(&self, tets: &[u32]) -> Fragment {
         let asset = self.body.asset();
         let corners = |tet: &u32| self.mesh.corners(*tet as usize).map(Vec3::as_dvec3);
-        let mass = MassProperties::of_tetrahedra(asset.material.density, tets.iter().map(corners));
+        let mass =
+            MassProperties::of_tetrahedra(asset.material().density, tets.iter().map(corners));
         let place = |node: u32| self.in_fragment(node, mass.centre);
         let mut triangles = Vec::new();
         let mut normals = Vec::new();
         for outer in tets.iter().flat_map(|&tet| &self.outer_of[tet as usize]) {
-            triangles.push(asset.surface.triangles[*outer as usize]);
-            normals.push(asset.surface.normals[*outer as usize]);
+            triangles.push(asset.surface().triangles[*outer as usize]);
+            normals.push(asset.surface().normals[*outer as usize]);
         }
         let outer_triangles = triangles.len();
         let (mut cracks, mut neighbours) = (Vec::new(), Vec::new());
@@ -181,7 +182,7 @@ impl Builder<'_> {
             render: None,
             mass,
             cell_shares: self.cell_shares(tets, mass.centre),
-            supported: asset.supported.iter().any(|node| nodes.contains(node)),
+            supported: asset.supported().iter().any(|node| nodes.contains(node)),
             velocity: DVec3::ZERO,
             angular_velocity: DVec3::ZERO,
         }
@@ -195,7 +196,7 @@ impl Builder<'_> {
     fn cell_shares(&self, tets: &[u32], centre: DVec3) -> Vec<(u32, Vec<Vec3>)> {
         let mut cells: BTreeMap<u32, BTreeSet<u32>> = BTreeMap::new();
         for &tet in tets {
-            let cell = self.body.asset().cell_of_tet[tet as usize];
+            let cell = self.body.asset().cell_of_tet()[tet as usize];
             cells
                 .entry(cell)
                 .or_default()

@@ -20,8 +20,8 @@ pub struct Hit<'a> {
 impl Hit<'_> {
     pub(crate) fn check(&self) -> Result<(), CompareError> {
         let asset = self.body.asset();
-        if asset.portion.is_some() {
-            return Err(CompareError::Piece(asset.name.clone()));
+        if asset.portion().is_some() {
+            return Err(CompareError::Piece(asset.name().to_owned()));
         }
         self.contacts.iter().try_for_each(Contact::validate)?;
         match self.contacts.iter().any(|contact| contact.impulse > 0.0) {

@@ -54,7 +54,7 @@ impl<'a> Wave<'a> {
 
     /// The step at which the strain energy Σ ½ λ q² is largest; the first of several.
     pub(crate) fn most_strained(&self) -> usize {
-        let eigenvalues = &self.hit.body.asset().modes.eigenvalues;
+        let eigenvalues = &self.hit.body.asset().modes().eigenvalues;
         let energy = |step: usize| -> f64 {
             let modes = self.motion.at(step).iter().zip(eigenvalues);
             modes.map(|(&q, l)| l * f64::from(q) * f64::from(q)).sum()
@@ -130,7 +130,7 @@ impl Moment<'_> {
 }
 
 fn elasticity(hit: Hit<'_>) -> Elasticity {
-    Elasticity::new(&hit.body.asset().material).with_green_lagrange(hit.config.is_paper())
+    Elasticity::new(hit.body.asset().material()).with_green_lagrange(hit.config.is_paper())
 }
 
 /// Place of the largest number, the first of equals.

@@ -56,7 +56,7 @@ pub(crate) struct Faces<'a> {
 impl<'a> Faces<'a> {
     /// Starts with all faces closed. `budget`: energy that all cracks together may spend, J.
     pub(crate) fn new(body: &'a Body, budget: f64) -> Self {
-        let mesh: &TetMesh = &body.asset().fracture;
+        let mesh: &TetMesh = body.asset().fracture();
         Self {
             body,
             mesh,
@@ -91,7 +91,7 @@ impl<'a> Faces<'a> {
         let mesh = self.mesh;
         let origin = mesh.centroid(start as usize);
         let above = |tet: u32| (mesh.centroid(tet as usize) - origin).dot(normal) >= 0.0;
-        let depth = self.body.asset().material.energy_depth;
+        let depth = self.body.asset().material().energy_depth;
         self.round += 1;
         let id = self.round;
         let (mut spent, mut available) = (0.0, 0.0);

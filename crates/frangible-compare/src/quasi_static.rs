@@ -25,12 +25,12 @@ pub const DEFAULT_STEP: f64 = 1.0 / 3840.0;
 pub(crate) fn quasi_static(hit: Hit<'_>, step: f64) -> Result<Outcome, CompareError> {
     let asset = hit.body.asset();
     let load = modal_load(hit.body, hit.contacts);
-    let followed = asset.modes.followed();
+    let followed = asset.modes().followed();
     let impulses = load.modal_impulse[..followed]
         .iter()
-        .zip(&asset.modes.eigenvalues);
+        .zip(&asset.modes().eigenvalues);
     let still: Vec<f64> = impulses.map(|(impulse, l)| impulse / (step * l)).collect();
-    let energies = still.iter().zip(&asset.modes.eigenvalues);
+    let energies = still.iter().zip(&asset.modes().eigenvalues);
     let energy = energies.map(|(q, l)| 0.5 * l * q * q).sum();
     let row: Vec<f32> = still.iter().map(|&q| q as f32).collect();
     let (time_step, steps) = steps(hit, step);
@@ -45,8 +45,8 @@ fn steps(hit: Hit<'_>, lasts: f64) -> (f64, usize) {
     let Some(speed) = hit.config.crack_speed() else {
         return (lasts, 1);
     };
-    let edge = f64::from(asset.fracture.mean_edge());
-    let time_step = edge / (speed * asset.material.rayleigh_speed());
+    let edge = f64::from(asset.fracture().mean_edge());
+    let time_step = edge / (speed * asset.material().rayleigh_speed());
     let steps = (lasts / time_step).ceil() as usize;
     (time_step, steps.clamp(1, 4096))
 }

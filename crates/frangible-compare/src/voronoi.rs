@@ -44,7 +44,7 @@ impl Sites {
 
     /// The body divided among the cells.
     pub(crate) fn divide<'a>(&self, body: &'a Body) -> Result<Division<'a>, CompareError> {
-        let mesh: &TetMesh = &body.asset().fracture;
+        let mesh: &TetMesh = body.asset().fracture();
         let place = |node: u32| mesh.positions[node as usize].as_dvec3();
         let nodes = 0..mesh.positions.len() as u32;
         let cells: Vec<u32> = nodes.map(|node| self.nearest(place(node))).collect();
@@ -57,7 +57,7 @@ impl Sites {
 
 /// This many sites around the impact point.
 pub(crate) fn sites_around(hit: Hit<'_>, count: usize, seed: u64) -> Sites {
-    let mesh = &hit.body.asset().fracture;
+    let mesh = hit.body.asset().fracture();
     let centre = hit.point();
     let far = |p: &Vec3| p.as_dvec3().distance(centre);
     let reach = mesh.positions.iter().map(far).fold(0.0, f64::max);

@@ -7,7 +7,7 @@ use frangible_compare::{CompareError, Division};
 #[test]
 fn labels_that_cannot_be_used_are_refused() {
     let body = Case::of_plate().body;
-    let nodes = body.asset().fracture.positions.len();
+    let nodes = body.asset().fracture().positions.len();
     let refused = |labels: Vec<u32>, at: f64| {
         let error = Division::new(&body, labels, |_, _| at).expect_err("refused");
         assert!(matches!(error, CompareError::Labels(_)));
@@ -21,8 +21,8 @@ fn labels_that_cannot_be_used_are_refused() {
 
 #[test]
 fn borders_add_up_to_the_faces_between_the_pieces() {
-    let body = Breakable::new(plate()).expect("a sound asset").body(1);
-    let mesh = &body.asset().fracture;
+    let body = Breakable::uniform(plate()).expect("a sound asset").body(1);
+    let mesh = body.asset().fracture();
     // Quarters, by the signs of x and y.
     let quarter = |v: usize| {
         let p = mesh.positions[v];
@@ -53,7 +53,7 @@ fn borders_add_up_to_the_faces_between_the_pieces() {
 #[test]
 fn what_is_too_small_stays_with_a_neighbour() {
     let body = Case::of_plate().body;
-    let nodes = body.asset().fracture.positions.len();
+    let nodes = body.asset().fracture().positions.len();
     let mut labels = vec![0; nodes];
     labels[7] = 1;
     let division =

@@ -3,8 +3,8 @@
 use frangible_export::{ExportError, write_glb};
 use frangible_recording::glam::{Quat, Vec3};
 use frangible_recording::{
-    Floor, MeshPart, Moments, Pose, Pulse, RecordedBlow, RecordedCrack, RecordedMesh, RecordedNode,
-    RecordedSlide, RecordedTouch, Recording, RecordingError, SurfaceMaterial, View,
+    Floor, MeshPart, Moments, Pose, RecordedBlow, RecordedCrack, RecordedMesh, RecordedNode,
+    RecordedPulse, RecordedSlide, RecordedTouch, Recording, RecordingError, SurfaceMaterial, View,
 };
 use gltf::animation::util::ReadOutputs;
 use gltf::animation::{Interpolation, Property};
@@ -300,7 +300,7 @@ fn an_unsound_recording_is_an_error_that_names_the_place() {
         ),
         (
             |r| {
-                let pulses = vec![Pulse::default()];
+                let pulses = vec![RecordedPulse::default()];
                 r.blows.push(RecordedBlow {
                     pulses,
                     ..RecordedBlow::default()

@@ -188,7 +188,7 @@ impl Gpu {
                 let (modal_impulse, pulse) = vibration.pulse()?;
                 Some(Job {
                     body: impacts[i].body,
-                    response: Response::new(&asset.modes, &asset.material, modal_impulse, pulse),
+                    response: Response::new(asset.modes(), asset.material(), modal_impulse, pulse),
                     vibration,
                     pulse,
                 })
@@ -270,18 +270,18 @@ fn within_range(kind: &Loaded, vibration: &Vibration, config: &FractureConfig) -
     let Some((modal_impulse, _)) = vibration.pulse() else {
         return false;
     };
-    if config.sized_flaws || kind.asset().modes.residual_modes > 0 {
+    if config.sized_flaws || kind.asset().modes().residual_modes > 0 {
         return false;
     }
     let asset = kind.asset();
-    let modes = &asset.modes;
+    let modes = asset.modes();
     let (mut stress, mut gradient) = (0.0, 0.0);
     for (i, impulse) in modal_impulse.iter().enumerate() {
         let amplitude = impulse.abs() / modes.eigenvalues[i].sqrt();
         stress += amplitude * f64::from(kind.root[i][0]);
         gradient += amplitude * f64::from(kind.root[i][1]);
     }
-    let modulus = quadratic_modulus(&asset.material, config);
+    let modulus = quadratic_modulus(asset.material(), config);
     // A NaN is not within.
     stress + 0.5 * modulus * gradient * gradient < MOST
 }

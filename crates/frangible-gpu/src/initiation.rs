@@ -235,7 +235,7 @@ fn follow(
 ) {
     let asset = &**body.asset();
     let motion = vibration.motion(body);
-    let elasticity = Elasticity::new(&asset.material).with_green_lagrange(config.is_paper());
+    let elasticity = Elasticity::new(asset.material()).with_green_lagrange(config.is_paper());
     let places: Vec<_> = (body.weak_tets().iter())
         .map(|&tet| body.weak_place(tet, config, &vibration.pressed))
         .collect();

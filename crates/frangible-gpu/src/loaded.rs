@@ -34,7 +34,7 @@ pub(crate) struct Buffers {
 impl Loaded {
     /// A kind that is loaded without a GPU.
     pub(crate) fn on_cpu(kind: &Breakable) -> Self {
-        let (stress, gradient) = kind.stress_bounds().root(kind.asset().modes.count());
+        let (stress, gradient) = kind.stress_bounds().root(kind.asset().modes().count());
         Self {
             kind: kind.clone(),
             root: pairs(&stress, &gradient).collect(),
@@ -74,14 +74,17 @@ impl Gpu {
         let asset = kind.asset();
         let loaded = Loaded::on_cpu(kind);
         let buffers = self.checked(|| {
-            let elements: Vec<u32> = (0..asset.analysis.elements.len())
+            let elements: Vec<u32> = (0..asset.analysis().elements.len())
                 .flat_map(|e| element_words(asset, e))
                 .collect();
             let bounds = kind.stress_bounds();
             let clusters: Vec<[f32; 2]> = pairs(&bounds.stress, &bounds.gradient).collect();
             let buffer = |what, bytes: &[u8]| self.fixed(asset, what, bytes);
             Ok(Buffers {
-                shapes: buffer("the mode shapes", bytemuck::cast_slice(&asset.modes.shapes))?,
+                shapes: buffer(
+                    "the mode shapes",
+                    bytemuck::cast_slice(&asset.modes().shapes),
+                )?,
                 elements: buffer("the analysis mesh", bytemuck::cast_slice(&elements))?,
                 root: buffer("the stress bounds", bytemuck::cast_slice(&loaded.root))?,
                 clusters: buffer("the stress bounds", bytemuck::cast_slice(&clusters))?,
@@ -100,7 +103,7 @@ impl Gpu {
         if size > MOST {
             return Err(GpuError::TooLarge {
                 what,
-                asset: asset.name.clone(),
+                asset: asset.name().to_owned(),
                 bytes: size,
                 limit: MOST,
             });
@@ -119,8 +122,8 @@ impl Gpu {
 /// An analysis element in the form that the shader's `elements` has.
 fn element_words(asset: &Asset, element: usize) -> [u32; 24] {
     let mut words = [0; 24];
-    words[..10].copy_from_slice(&asset.analysis.elements[element]);
-    let gradients = asset.analysis.barycentric_gradients[element];
+    words[..10].copy_from_slice(&asset.analysis().elements[element]);
+    let gradients = asset.analysis().barycentric_gradients[element];
     for (word, x) in words[12..]
         .iter_mut()
         .zip(gradients.iter().flat_map(|g| g.to_array()))

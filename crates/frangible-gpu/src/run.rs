@@ -70,7 +70,7 @@ impl Gpu {
         let shared = Shared {
             kind,
             buffers,
-            rows: 3 * kind.asset().analysis.nodes.len(),
+            rows: 3 * kind.asset().analysis().nodes.len(),
             config,
         };
         let results = self.checked(|| {
@@ -160,7 +160,7 @@ impl Gpu {
         if largest > MOST {
             return Err(GpuError::TooLarge {
                 what: "the motion of the meshes",
-                asset: shared.kind.asset().name.clone(),
+                asset: shared.kind.asset().name().to_owned(),
                 bytes: largest,
                 limit: MOST,
             });
@@ -361,7 +361,7 @@ fn uniforms(
     stride: usize,
     alive: usize,
 ) -> Vec<u32> {
-    let material = &shared.kind.asset().material;
+    let material = shared.kind.asset().material();
     let (lambda, mu) = (material.lame_lambda(), material.shear_modulus());
     let mut words = Vec::with_capacity(SLOT * chunks.len());
     for chunk in chunks {

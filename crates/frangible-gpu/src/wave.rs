@@ -73,14 +73,14 @@ pub(crate) fn waves(
     limit: impl Fn(&Body) -> f32,
 ) -> Result<Vec<Wave>, GpuError> {
     let asset = kind.asset();
-    let modes = asset.modes.count();
+    let modes = asset.modes().count();
     let mut waves: Vec<Wave> = Vec::new();
     for job in jobs {
         let steps = job.pulse.total_steps;
         let weak = job.body.weak_tets().len();
         let too_large = |what, bytes| GpuError::TooLarge {
             what,
-            asset: asset.name.clone(),
+            asset: asset.name().to_owned(),
             bytes,
             limit: MOST,
         };
@@ -111,7 +111,7 @@ pub(crate) fn waves(
 
 /// Weak tetrahedra with an outer face under a contact, ascending.
 fn pressed_weak(job: &Job<'_>) -> Vec<u32> {
-    let tet_of_triangle = &job.body.asset().surface.tets;
+    let tet_of_triangle = &job.body.asset().surface().tets;
     let tets = job.vibration.pressed.iter();
     let mut tets: Vec<u32> = tets.map(|&t| tet_of_triangle[t as usize]).collect();
     tets.retain(|tet| job.body.weak_tets().binary_search(tet).is_ok());

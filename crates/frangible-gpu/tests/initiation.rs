@@ -205,15 +205,15 @@ fn under_a_contact_stress_is_taken_inside() {
         let away = numbers.blow(asset, 20.0);
         // The first, which a list of those that pass the strength does not cut.
         let tets = &body.weak_tets()[..10];
-        let triangles = (0..).zip(&asset.surface.tets);
+        let triangles = (0..).zip(&asset.surface().tets);
         let contacts: Vec<Vec<Contact>> = triangles
             .filter(|&(t, tet)| {
                 let law = |pressed| body.weak_place(*tet, config, pressed).1;
                 tets.contains(tet) && law(&[t]) != law(&[])
             })
             .map(|(t, _)| {
-                let corners = asset.surface.triangles[t as usize];
-                let corners = corners.map(|v| asset.fracture.positions[v as usize]);
+                let corners = asset.surface().triangles[t as usize];
+                let corners = corners.map(|v| asset.fracture().positions[v as usize]);
                 let point = (corners[0] + corners[1] + corners[2]) / 3.0;
                 let there = Contact {
                     point,

@@ -88,8 +88,8 @@ fn run(cases: &[Case], impacts: u64, field: Field, ours: bool) -> Result<(), Box
         let ms = 1e3 / impacts as f64;
         println!(
             "  {}, {}: {impacts}, {}; {}, {}; {:.1}, {:.1}",
-            case.asset.name,
-            case.asset.fracture.tets.len(),
+            case.asset.name(),
+            case.asset.fracture().tets.len(),
             count[1],
             count[2],
             count[3],

@@ -16,7 +16,7 @@ use frangible::{Body, Breakable, Material};
 use frangible_bake::pieces::{Method, Pieces};
 use frangible_bake::{BakeSpec, MeshSize, Shape, bake};
 use frangible_lab::plot::{Axis, Chart, Marker, Series, png};
-use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
+use frangible_rapier::rapier3d::dynamics::{RigidBodyBuilder, RigidBodyHandle};
 use frangible_rapier::rapier3d::math::{Pose, Vector};
 use frangible_rapier::{BreakableWorld, Breaking, SurfaceProperties, WorldConfig};
 
@@ -49,9 +49,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         }),
         ..BakeSpec::new("tile", shape, Material::preset("porcelain")?)
     };
-    let (asset, _) = bake(&spec, &mut |_| {})?;
-    eprintln!("{} tetrahedra", asset.fracture.tets.len());
-    let kind = Breakable::new(Arc::new(asset))?;
+    let asset = bake(&spec)?;
+    eprintln!("{} tetrahedra", asset.fracture().tets.len());
+    let kind = Breakable::uniform(Arc::new(asset))?;
     let mut config = WorldConfig::default();
     config.breaking = Breaking::AfterStep {
         budget: 20_000,
@@ -64,7 +64,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut world = BreakableWorld::new(config)?;
     let mut pieces = Pieces::new(Method::Auto);
     (pieces.elements, pieces.modes) = (Some(40), 8);
-    world.set_piece_model(Some(Arc::new(pieces)));
+    world = world.with_piece_model(pieces);
     world.insert_fixed_half_space(Vector::ZERO, Vector::Y, SurfaceProperties::STONE)?;
     let mut curve: Vec<[f64; 6]> = Vec::new();
     let (mut tiles, mut again, mut deepest, mut told) = (0, 0, 0, 0);
@@ -86,7 +86,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         let pose = Pose::new(place, Vector::new(turn.cos(), 0.0, turn.sin()));
         let down = Vector::new(0.0, -speed, 0.0);
         if tile {
-            let tile = world.insert_breakable(kind.body(step), pose, down, Vector::ZERO)?;
+            let tile = world.insert(
+                kind.body(step),
+                RigidBodyBuilder::dynamic().pose(pose).linvel(down),
+            )?;
             bodies.push_back(tile);
         } else if step % THROWS == 0 {
             // The piece that has been breakable for longest, and behind all others next time.
@@ -102,7 +105,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             }
         }
         for event in world.step()? {
-            match &event.asset.portion {
+            match event.asset.portion() {
                 Some(portion) => {
                     again += 1;
                     deepest = deepest.max(portion.generation() + 1);
@@ -181,7 +184,7 @@ fn write(folder: &Path, curve: &[[f64; 6]]) -> Result<(), Box<dyn Error>> {
 }
 
 fn is_piece(body: &Body) -> bool {
-    body.asset().portion.is_some()
+    body.asset().portion().is_some()
 }
 
 /// Resident memory of this process, MB; zero where the system does not tell.

@@ -55,7 +55,7 @@ fn agree(what: &str, cases: &[Case], look: impl Fn(&Case, u64) -> (Result<(), Mi
             torn += u32::from(tore);
             match same {
                 Err(mismatch) if mismatch.margin < MARGIN => inside += 1,
-                Err(mismatch) => outside.push((case.asset.name.clone(), number, mismatch)),
+                Err(mismatch) => outside.push((case.asset.name(), number, mismatch)),
                 Ok(()) => {}
             }
         }
@@ -112,7 +112,11 @@ fn both_fields_are_one_where_linear_elements_carry_the_modes() {
             let (linear, embedded) = (of(Field::Linear), of(Field::Embedded));
             // Mid-edge displacements and gradients are stored in f32.
             let relative = (linear.peak_stress / embedded.peak_stress - 1.0).abs();
-            assert!(relative < 1e-4, "{} {number}: {relative}", case.asset.name);
+            assert!(
+                relative < 1e-4,
+                "{} {number}: {relative}",
+                case.asset.name()
+            );
         }
     }
 }
@@ -178,7 +182,7 @@ fn tracing_changes_no_outcome() {
             assert_eq!(trace.cracks.len(), b.cracks);
             assert_eq!(
                 trace.fragment_of_node.len(),
-                case.asset.fracture.positions.len()
+                case.asset.fracture().positions.len()
             );
         }
     }

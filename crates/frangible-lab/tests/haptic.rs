@@ -21,7 +21,7 @@ fn plate() -> Breakable {
             Material::preset("glass").unwrap(),
         )
     };
-    Breakable::new(bake(&spec, &mut |_| {}).unwrap().0).unwrap()
+    Breakable::uniform(bake(&spec).unwrap()).unwrap()
 }
 
 fn touch(kind: &Breakable) -> Touch {

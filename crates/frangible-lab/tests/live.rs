@@ -1,6 +1,7 @@
 //! Bodies that vibrate from tick to tick.
 
 use frangible::glam::Vec3;
+use frangible::internals::asset::AssetParts;
 use frangible::{Body, Breakable, Material};
 use frangible_bake::mode_field::mode_on_fracture_mesh;
 use frangible_bake::{BakeSpec, MeshSize, Shape, bake};
@@ -24,8 +25,8 @@ fn pane() -> Body {
             Material::preset("glass").unwrap(),
         )
     };
-    let asset = bake(&spec, &mut |_| {}).unwrap().0;
-    Breakable::new(asset).unwrap().body(1)
+    let asset = bake(&spec).unwrap();
+    Breakable::uniform(asset).unwrap().body(1)
 }
 
 #[test]
@@ -45,7 +46,7 @@ fn a_steady_push_ends_at_the_static_displacement() {
     assert!((now - rest).length() < 1e-4 * rest.length(), "{now} {rest}");
     // Σ φ φᵀ f / λ once more, from the modes as they are drawn.
     let node = |p: &Vec3| (*p - place.position).length_squared();
-    let positions = &body.asset().fracture.positions;
+    let positions = &body.asset().fracture().positions;
     let corner = (0..positions.len())
         .min_by(|&a, &b| node(&positions[a]).total_cmp(&node(&positions[b])))
         .unwrap();
@@ -53,7 +54,7 @@ fn a_steady_push_ends_at_the_static_displacement() {
     let mut live = LiveModes::new(&body, 1e-3).unwrap();
     live.push(&there, Vec3::NEG_Z);
     live.step();
-    let modes = &body.asset().modes;
+    let modes = body.asset().modes();
     let expected: Vec3 = (0..modes.count())
         .map(|i| {
             let phi = mode_on_fracture_mesh(body.asset(), i).displacements[corner];
@@ -73,12 +74,15 @@ fn vibration_holds_the_work_that_was_done_on_it() {
     material.stiffness_damping = 0.0;
     material.mass_damping = 0.0;
     let asset = (**pane().asset()).clone();
-    let body = Breakable::new(frangible::Asset { material, ..asset })
-        .unwrap()
-        .body(1);
+    let body = Breakable::uniform(frangible::Asset::from_parts(AssetParts {
+        material,
+        ..asset.into_parts()
+    }))
+    .unwrap()
+    .body(1);
     let place = SurfacePlace::nearest(&body, Vec3::new(0.1, 0.06, 0.003)).unwrap();
     // A tick of a twentieth of the highest mode's period, so that the trapezoidal rule serves for the work.
-    let highest = body.asset().modes.frequency(39);
+    let highest = body.asset().modes().frequency(39);
     let tick = 0.05 / highest;
     let mut live = LiveModes::new(&body, tick).unwrap();
     let (mut work, mut before) = (0.0, 0.0);

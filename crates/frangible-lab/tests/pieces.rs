@@ -15,8 +15,8 @@ fn broken() -> Broken {
         fracture: Some(shape.size_for(8000.0).expect("a size")),
         ..BakeSpec::new("plate", shape, Material::preset("glass").expect("glass"))
     };
-    let (asset, _) = bake(&spec, &mut |_| {}).expect("a plate");
-    let body = Breakable::new(Arc::new(asset)).expect("a body").body(3);
+    let asset = bake(&spec).expect("a plate");
+    let body = Breakable::uniform(Arc::new(asset)).expect("a body").body(3);
     let steel = Material::preset("steel").expect("steel");
     let ball = Striker::ball(&steel, 0.2, 0.018);
     let at = Vec3::new(0.03, 0.01, 0.0025);

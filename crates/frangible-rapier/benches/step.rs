@@ -1,6 +1,7 @@
 //! Cost of a step: plain, with the copy of the world, with a break into 100 fragments, of asking what bodies carry, and of a heap of pieces
 //! that sleep, are fixed or are merged.
 
+use frangible_rapier::rapier3d::dynamics::RigidBodyBuilder;
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
@@ -22,16 +23,18 @@ fn scene(boxes: usize, breaks: bool, near: bool) -> BreakableWorld {
         .insert_fixed_half_space(Vector::ZERO, Vector::Y, SurfaceProperties::STONE)
         .unwrap();
     let pane = common::box_asset(PANE, [4, 4, 1]);
-    let still = Vector::ZERO;
     world
-        .insert_breakable(common::body(&pane), common::at(0.0, 1.0, 0.0), still, still)
+        .insert(
+            common::body(&pane),
+            RigidBodyBuilder::dynamic().pose(common::at(0.0, 1.0, 0.0)),
+        )
         .unwrap();
     let half = Vec3::splat(0.03);
     let cube = common::box_asset(half, [2, 2, 2]);
     for i in 0..boxes {
         let pose = common::at(0.08 * (i % 20) as f32, 0.0301, 1.0 + 0.08 * (i / 20) as f32);
         world
-            .insert_breakable(common::body(&cube), pose, still, still)
+            .insert(common::body(&cube), RigidBodyBuilder::dynamic().pose(pose))
             .unwrap();
     }
     if breaks {
@@ -129,9 +132,11 @@ fn pairs(count: usize, asked: bool) -> BreakableWorld {
     for i in 0..count {
         let (column, layer) = (i / 2, i % 2);
         let pose = common::at(0.2 * column as f32, 0.0, 0.025 + 0.05 * layer as f32);
-        let still = Vector::ZERO;
         let handle = world
-            .insert_breakable(common::body(common::baked::block()), pose, still, still)
+            .insert(
+                common::body(common::baked::block()),
+                RigidBodyBuilder::dynamic().pose(pose),
+            )
             .unwrap();
         let activation = world.physics.bodies[handle].activation_mut();
         activation.normalized_linear_threshold = -1.0;
@@ -166,12 +171,13 @@ fn heap(at_rest: AtRest) -> BreakableWorld {
         .unwrap();
     world.set_break_function(common::slicer(SLAB, [5, 1, 5], 0.0, 0.0));
     let slab = common::box_asset(SLAB, [1, 1, 1]);
-    let still = Vector::ZERO;
     for i in 0..12 {
         let (x, z) = (0.15 * (i % 2) as f32, 0.15 * (i / 2 % 2) as f32);
         let pose = common::at(x, 0.3 + 0.1 * (i / 4) as f32, z);
         let slab = common::body(&slab);
-        world.insert_breakable(slab, pose, still, still).unwrap();
+        world
+            .insert(slab, RigidBodyBuilder::dynamic().pose(pose))
+            .unwrap();
     }
     for _ in 0..8 * 240 {
         world.step().unwrap();
@@ -180,7 +186,9 @@ fn heap(at_rest: AtRest) -> BreakableWorld {
     let block = common::box_asset(Vec3::splat(0.05), [2, 2, 2]);
     let aside = common::at(3.0, 0.05, 0.0);
     let block = common::body(&block);
-    world.insert_breakable(block, aside, still, still).unwrap();
+    world
+        .insert(block, RigidBodyBuilder::dynamic().pose(aside))
+        .unwrap();
     for _ in 0..240 {
         world.step().unwrap();
     }

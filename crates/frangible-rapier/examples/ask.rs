@@ -1,5 +1,6 @@
 //! Finds the speed at which a stone breaks a window, and changes nothing: `cargo run --release -p frangible-rapier --example ask`.
 
+use frangible_rapier::rapier3d::dynamics::RigidBodyBuilder;
 use std::error::Error;
 
 use frangible::{Breakable, Material, Striker};
@@ -15,10 +16,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     )?;
     let edges = [Region::below(0, 0.01), Region::above(0, 0.59)];
     spec.supports = edges.map(Support::clamped).to_vec();
-    let kind = Breakable::new(bake(&spec, &mut |_| {})?.0)?;
+    let kind = Breakable::new(bake(&spec)?)?;
     let mut world = BreakableWorld::new(WorldConfig::default())?;
-    let still = Vector::ZERO;
-    let window = world.insert_breakable(kind.body(1), Pose::IDENTITY, still, still)?;
+    let window = world.insert(kind.body(1), RigidBodyBuilder::dynamic())?;
 
     println!("grams   least speed in the middle, near the frame (m/s)");
     for grams in [5.0_f64, 20.0, 80.0, 320.0] {

@@ -1,5 +1,6 @@
 //! An explosion between three panes: `cargo run --release -p frangible-rapier --example explosion`.
 
+use frangible_rapier::rapier3d::dynamics::RigidBodyBuilder;
 use std::error::Error;
 
 use frangible::{Breakable, Material};
@@ -15,12 +16,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     )?;
     let edges = [Region::below(0, 0.01), Region::above(0, 0.59)];
     spec.supports = edges.map(Support::clamped).to_vec();
-    let kind = Breakable::new(bake(&spec, &mut |_| {})?.0)?;
+    let kind = Breakable::new(bake(&spec)?)?;
     let mut world = BreakableWorld::new(WorldConfig::default())?;
     let mut panes = Vec::new();
     for (seed, distance) in [(1, 0.5), (2, 2.0), (3, 8.0)] {
         let pose = Pose::translation(0.0, 0.0, -distance);
-        let pane = world.insert_breakable(kind.body(seed), pose, Vector::ZERO, Vector::ZERO)?;
+        let pane = world.insert(kind.body(seed), RigidBodyBuilder::dynamic().pose(pose))?;
         panes.push((pane, distance));
     }
 

@@ -1,5 +1,6 @@
 //! A drinking glass falls on a stone floor and breaks: `cargo run --release -p frangible-rapier --example glass`.
 
+use frangible_rapier::rapier3d::dynamics::RigidBodyBuilder;
 use std::error::Error;
 use std::f32::consts::FRAC_PI_2;
 use std::sync::Arc;
@@ -12,7 +13,7 @@ use frangible_rapier::{BreakableWorld, SurfaceProperties, WorldConfig};
 fn main() -> Result<(), Box<dyn Error>> {
     // Once for each kind of object; a game does it beforehand and loads the file.
     let spec = BakeSpec::for_games("glass", Shape::drinking_glass(), Material::preset("glass")?)?;
-    let (asset, _) = bake(&spec, &mut |_| {})?;
+    let asset = bake(&spec)?;
     let kind = Breakable::new(Arc::new(asset))?;
 
     // The world has y up, and shapes of revolution have z up.
@@ -21,7 +22,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let upright = Rotation::from_rotation_x(-FRAC_PI_2);
     let tilted = Rotation::from_rotation_z(2.5) * upright;
     let pose = Pose::from_parts(Vector::new(0.0, 1.2, 0.0), tilted);
-    let glass = world.insert_breakable(kind.body(1), pose, Vector::ZERO, Vector::ZERO)?;
+    let glass = world.insert(kind.body(1), RigidBodyBuilder::dynamic().pose(pose))?;
 
     for _ in 0..480 {
         world.step()?;

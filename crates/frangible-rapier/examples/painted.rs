@@ -11,7 +11,7 @@ use frangible_rapier::rapier3d::prelude::*;
 fn main() -> Result<(), Box<dyn Error>> {
     let porcelain = Material::preset("porcelain")?;
     let spec = BakeSpec::for_games("tile", Shape::plate(0.3, 0.2, 0.008), porcelain.clone())?;
-    let asset = Arc::new(bake(&spec, &mut |_| {})?.0);
+    let asset = Arc::new(bake(&spec)?);
 
     // A quarter of the strength along a scored line; a game would take it from vertex colours (`frangible_bake::weakness::from_paint`).
     let scored = Fields::from_function(&asset, |p| {

@@ -2,15 +2,16 @@
 //! several lengths. A measuring tool: `cargo run --release -p frangible-rapier --example passage -- 20 40 0.25` throws at 20 m/s with forty
 //! seeds, and looks at the ball 0.25 s after it could have touched the pane.
 
+use frangible_rapier::rapier3d::dynamics::RigidBodyBuilder;
 use std::error::Error;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
+use frangible::MassProperties;
 use frangible::glam::{DMat3, DVec3, Vec3};
 use frangible::internals::rigid::{
     Kick, Rigid, fly_through, nearest_first, take_blow, take_energy, take_held,
 };
-use frangible::internals::{Fields, MassProperties};
 use frangible::{
     Asset, Breakable, Contact, FractureConfig, InputError, Material, Outcome, Striker, impact,
 };
@@ -42,10 +43,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let seconds: f32 = words.next().map_or(Ok(0.25), |word| word.parse())?;
     let bodies = concat!(env!("CARGO_MANIFEST_DIR"), "/../frangible/tests/bodies");
     let pane = Asset::load(format!("{bodies}/pane.frangible"))?;
-    let fields = Fields::of_material(&pane.material);
     let steel = Material::preset("steel")?;
     let throw = Throw {
-        pane: Breakable::new(Arc::new(pane))?.with_fields(fields)?,
+        pane: Breakable::new(Arc::new(pane))?,
         mass: steel.density * 4.0 / 3.0 * PI * f64::from(RADIUS).powi(3),
         steel,
         speed,
@@ -81,11 +81,7 @@ impl Throw {
     fn alone(&self, seed: u64) -> Result<f64, InputError> {
         let body = self.pane.body(seed);
         let place = body.nearest_on_surface(START * Vec3::new(1.0, 1.0, 0.1));
-        let striker = Striker {
-            curvature_radius: RADIUS,
-            inverse_effective_mass: (1.0 / self.mass) as f32,
-            ..Striker::fixed(&self.steel)
-        };
+        let striker = Striker::ball(&self.steel, self.mass, f64::from(RADIUS));
         let contact = Contact::strike(place.position, Vec3::NEG_Z, self.speed, striker);
         let outcome = impact(&body, &[contact], &FractureConfig::default())?;
         let pushes: Vec<(DVec3, DVec3)> = (outcome.report().contacts.iter())
@@ -104,7 +100,7 @@ impl Throw {
             Rigid::free(m.mass, m.inertia, [m.centre, DVec3::ZERO, DVec3::ZERO])
         };
         let Outcome::Broke(fracture) = &outcome else {
-            take_held(&mut still(&body.asset().mass), &mut ball, &pushes);
+            take_held(&mut still(&body.asset().mass()), &mut ball, &pushes);
             return Ok((ball[0].linear - velocity).z);
         };
         let order = nearest_first(fracture, &[place.position]);
@@ -128,7 +124,7 @@ impl Throw {
         (config.gravity, config.dt) = (Vector::ZERO, 1.0 / rate);
         let mut world = BreakableWorld::new(config)?;
         let pane = self.pane.body(seed);
-        world.insert_breakable(pane, Pose::IDENTITY, Vector::ZERO, Vector::ZERO)?;
+        world.insert(pane, RigidBodyBuilder::dynamic())?;
         let surface = SurfaceProperties::of(&self.steel, RADIUS);
         let [x, y, z] = START.to_array();
         let ball = world.insert_rigid(

@@ -1,6 +1,7 @@
 //! A hundred pots under a budget: work is spread over frames, so that none takes long.
 //! `cargo run --release -p frangible-rapier --example pots`
 
+use frangible_rapier::rapier3d::dynamics::RigidBodyBuilder;
 use std::error::Error;
 use std::time::{Duration, Instant};
 
@@ -11,7 +12,7 @@ use frangible_rapier::{BreakableWorld, SurfaceProperties, WorldConfig};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let spec = BakeSpec::for_games("pot", Shape::bowl(), Material::preset("porcelain")?)?;
-    let kind = Breakable::new(bake(&spec, &mut |_| {})?.0)?;
+    let kind = Breakable::new(bake(&spec)?)?;
 
     // One pot a frame at most; the fracture has three frames for each, on other threads.
     let mut config = WorldConfig::for_games();
@@ -22,7 +23,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     for i in 0..100_u8 {
         let (row, column) = (f32::from(i / 10), f32::from(i % 10));
         let start = Pose::translation(0.25 * row, 1.0 + 0.15 * column, 0.25 * column);
-        world.insert_breakable(kind.body(u64::from(i)), start, Vector::ZERO, Vector::ZERO)?;
+        world.insert(
+            kind.body(u64::from(i)),
+            RigidBodyBuilder::dynamic().pose(start),
+        )?;
     }
 
     let (mut broke, mut frames) = (0, Vec::new());

@@ -1,5 +1,6 @@
 //! A break sent to another machine as bytes, and made again there bit for bit: `cargo run --release -p frangible-rapier --example replay`.
 
+use frangible_rapier::rapier3d::dynamics::RigidBodyBuilder;
 use std::error::Error;
 use std::sync::Arc;
 
@@ -10,14 +11,14 @@ use frangible_rapier::{BreakableWorld, SurfaceProperties, WorldConfig};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let spec = BakeSpec::for_games("bowl", Shape::bowl(), Material::preset("porcelain")?)?;
-    let file = bake(&spec, &mut |_| {})?.0.to_bytes();
+    let file = bake(&spec)?.to_bytes();
 
     // The server: the bowl falls, and of its break the seed and the contacts are kept.
     let kind = Breakable::new(Arc::new(Asset::from_bytes(&file)?))?;
     let mut world = BreakableWorld::new(WorldConfig::default())?;
     world.insert_fixed_half_space(Vector::ZERO, Vector::Y, SurfaceProperties::STONE)?;
     let pose = Pose::translation(0.0, 1.5, 0.0);
-    world.insert_breakable(kind.body(77), pose, Vector::ZERO, Vector::ZERO)?;
+    world.insert(kind.body(77), RigidBodyBuilder::dynamic().pose(pose))?;
     let event = loop {
         if let Some(event) = world.step()?.first() {
             break event.clone();

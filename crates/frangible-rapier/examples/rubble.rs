@@ -1,7 +1,7 @@
 //! The pieces of a broken bowl become one fixed body, until a ball hits it: `cargo run --release -p frangible-rapier --example rubble`.
 
+use frangible_rapier::rapier3d::dynamics::RigidBodyBuilder;
 use std::error::Error;
-use std::sync::Arc;
 
 use frangible::{Breakable, Material};
 use frangible_bake::pieces::Pieces;
@@ -11,16 +11,15 @@ use frangible_rapier::{AtRest, Ball, BreakableWorld, SurfaceProperties, WorldCon
 
 fn main() -> Result<(), Box<dyn Error>> {
     let spec = BakeSpec::for_games("bowl", Shape::bowl(), Material::preset("porcelain")?)?;
-    let kind = Breakable::new(bake(&spec, &mut |_| {})?.0)?;
+    let kind = Breakable::new(bake(&spec)?)?;
 
     // Pieces that rest are one body with one collider; those of two grams and more can break again, by modes of their own.
     let mut config = WorldConfig::default();
     config.at_rest = AtRest::Merge;
-    let mut world = BreakableWorld::new(config)?;
-    world.set_piece_model(Some(Arc::new(Pieces::default())));
+    let mut world = BreakableWorld::new(config)?.with_piece_model(Pieces::default());
     world.insert_fixed_half_space(Vector::ZERO, Vector::Y, SurfaceProperties::STONE)?;
     let aslant = Pose::from_parts(Vector::Y * 0.8, Rotation::from_rotation_x(0.6));
-    world.insert_breakable(kind.body(1), aslant, Vector::ZERO, Vector::ZERO)?;
+    world.insert(kind.body(1), RigidBodyBuilder::dynamic().pose(aslant))?;
     run(&mut world, 1200)?;
 
     // A ball of one kilogram comes down on the heaviest of the pieces that rest.

@@ -1,6 +1,7 @@
 //! A window in the wall of a game that has a Rapier world of its own, with its own event handler:
 //! `cargo run --release -p frangible-rapier --example window`.
 
+use frangible_rapier::rapier3d::dynamics::RigidBodyBuilder;
 use std::error::Error;
 use std::sync::mpsc::channel;
 
@@ -29,12 +30,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     )?;
     let edges = [Region::below(0, 0.01), Region::above(0, 0.59)];
     spec.supports = edges.map(Support::clamped).to_vec();
-    let kind = Breakable::new(bake(&spec, &mut |_| {})?.0)?;
+    let kind = Breakable::new(bake(&spec)?)?;
     let mut breaker = Breaker::new();
     let rigid = RigidBodyBuilder::fixed().translation(Vector::new(0.0, 1.2, 0.0));
     breaker.with(Sets::from(&mut game), |world| {
         let heard = |c: ColliderBuilder| c.active_events(ActiveEvents::COLLISION_EVENTS);
-        world.insert_body(kind.body(1), rigid, heard)
+        world.insert_with(kind.body(1), rigid, heard)
     })?;
 
     // The game hears what meets what, to play sounds; Rapier's own collector is its event handler.

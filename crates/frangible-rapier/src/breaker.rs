@@ -7,6 +7,7 @@
 //! The borrowed sets are swapped in and out, some hundred bytes each. They go back even if a hook or an event handler of the game
 //! panics.
 
+use frangible::internals::PieceModel;
 use rapier3d::dynamics::{
     CCDSolver, ImpulseJointSet, IntegrationParameters, IslandManager, MultibodyJointSet,
     RigidBodySet, SoftBodySet,
@@ -110,6 +111,14 @@ impl Breaker {
         Ok(Self {
             world: BreakableWorld::new(config)?,
         })
+    }
+
+    /// This breaker with a model for the modes of fragments, see [`BreakableWorld::with_piece_model`].
+    #[must_use]
+    pub fn with_piece_model(self, model: impl PieceModel + 'static) -> Self {
+        Self {
+            world: self.world.with_piece_model(model),
+        }
     }
 
     /// Steps the game's world in place of [`PhysicsPipeline::step`]; returns the breaks in the step.

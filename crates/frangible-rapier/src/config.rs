@@ -166,7 +166,7 @@ pub struct WorldConfig {
     pub resting_loads: bool,
     /// Time at which a breaking body is replaced by its fragments. Default: inside the step.
     pub breaking: Breaking,
-    /// Settings for fragments that break again, if the world has a [model of how they vibrate](crate::BreakableWorld::set_piece_model).
+    /// Settings for fragments that break again, if the world has a [model of how they vibrate](crate::BreakableWorld::with_piece_model).
     pub pieces: PieceConfig,
     /// Also records the impacts that broke nothing, see [`crate::BreakableWorld::held`]. Default off.
     pub record_held: bool,

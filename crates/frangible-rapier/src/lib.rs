@@ -63,7 +63,7 @@
 //! supported node stay in place, and the others fall.
 //!
 //! # Fragments that break again
-//! With a model for their modes ([`BreakableWorld::set_piece_model`]; the module `pieces` of `frangible-bake` has several), fragments
+//! With a model for their modes ([`BreakableWorld::with_piece_model`]; the module `pieces` of `frangible-bake` has several), fragments
 //! become breakable [`PieceConfig::delay`] after the break, within limits of generation, mass and size; the others stay plain bodies.
 //! Bodies that are cracked but not broken get new modes in the same way.
 //!

@@ -6,7 +6,7 @@ use crate::common::baked::pane;
 use frangible::Breakable;
 use frangible::internals::{Factors, Fields};
 use frangible_bake::pieces::{Method, Pieces};
-use frangible_rapier::rapier3d::dynamics::{RigidBody, RigidBodyHandle};
+use frangible_rapier::rapier3d::dynamics::{RigidBody, RigidBodyBuilder, RigidBodyHandle};
 use frangible_rapier::rapier3d::math::{Pose, Vector};
 use frangible_rapier::{BreakableWorld, SurfaceProperties, WorldConfig};
 
@@ -46,9 +46,9 @@ fn fall(method: Option<Method>, change: impl Fn(&mut WorldConfig)) -> (Vec<Break
     if let Some(method) = method {
         let mut pieces = Pieces::new(method);
         (pieces.elements, pieces.modes) = (Some(150), 20);
-        world.set_piece_model(Some(Arc::new(pieces)));
+        world = world.with_piece_model(pieces);
     }
-    let body = Breakable::new(Arc::clone(pane()))
+    let body = Breakable::uniform(Arc::clone(pane()))
         .unwrap()
         .with_fields(Fields::default())
         .unwrap()
@@ -57,7 +57,7 @@ fn fall(method: Option<Method>, change: impl Fn(&mut WorldConfig)) -> (Vec<Break
     let pose = Pose::new(Vector::new(0.0, 1.0, 0.0), Vector::new(0.25, 0.0, 0.0));
     let start = Vector::new(0.0, -7.0, 0.0);
     world
-        .insert_breakable(body, pose, start, Vector::ZERO)
+        .insert(body, RigidBodyBuilder::dynamic().pose(pose).linvel(start))
         .unwrap();
     let mut breaks = Vec::new();
     for _ in 0..1100 {
@@ -72,10 +72,10 @@ fn fall(method: Option<Method>, change: impl Fn(&mut WorldConfig)) -> (Vec<Break
             let parent = before.iter().find(|(h, _)| *h == event.parent);
             let Some((_, parent)) = parent else { continue };
             let fragments = &event.fracture.fragments;
-            let density = event.asset.material.density;
+            let density = event.asset.material().density;
             breaks.push(Break {
                 step: event.step,
-                generation: event.asset.portion.as_ref().map_or(0, |p| p.generation()),
+                generation: event.asset.portion().map_or(0, |p| p.generation()),
                 masses: fragments.iter().map(|f| f.mass.mass.to_bits()).collect(),
                 parent_mass: f64::from(parent.mass()),
                 momentum: [momentum([parent].into_iter()), {
@@ -152,11 +152,11 @@ fn limits_hold() {
 
 /// The first frequency of a pane over its former one, once a hit has cracked it and parted nothing; none if it breaks at once.
 fn cracked(seed: u64) -> Option<f64> {
-    let mut world = BreakableWorld::new(WorldConfig::default()).unwrap();
-    world.set_piece_model(Some(Arc::new(Pieces::new(Method::Reanalysis))));
+    let world = BreakableWorld::new(WorldConfig::default()).unwrap();
+    let mut world = world.with_piece_model(Pieces::new(Method::Reanalysis));
     world.physics.gravity = Vector::ZERO;
     // In glass a crack runs until the body has parted, but for what is too tough for it: here all but a patch.
-    let mesh = &pane().fracture;
+    let mesh = pane().fracture();
     let factors = |e: usize| {
         let at = mesh.centroid(e);
         let brittle = at.x.abs() < 0.13 && (-0.1..0.13).contains(&at.y);
@@ -167,12 +167,10 @@ fn cracked(seed: u64) -> Option<f64> {
     };
     let mut fields = Fields::default();
     fields.of_tet = (0..mesh.tets.len()).map(factors).collect();
-    let kind = Breakable::new(Arc::clone(pane())).unwrap();
+    let kind = Breakable::uniform(Arc::clone(pane())).unwrap();
     let body = kind.with_fields(fields).unwrap().body(seed);
-    let intact = body.asset().modes.frequency(0);
-    let handle = world
-        .insert_breakable(body, Pose::IDENTITY, Vector::ZERO, Vector::ZERO)
-        .unwrap();
+    let intact = body.asset().modes().frequency(0);
+    let handle = world.insert(body, RigidBodyBuilder::dynamic()).unwrap();
     // Harder and harder, until it cracks.
     for i in 0..40 {
         let impulse = Vector::new(0.0, 0.0, -0.02 * 1.1_f32.powi(i));
@@ -184,7 +182,7 @@ fn cracked(seed: u64) -> Option<f64> {
         }
         let body = world.breakable(handle)?;
         if !body.state().is_intact() {
-            return Some(body.asset().modes.frequency(0) / intact);
+            return Some(body.asset().modes().frequency(0) / intact);
         }
         // It drifts.
         let rigid = world.physics.bodies.get_mut(handle).unwrap();

@@ -1,7 +1,8 @@
 //! Questions to the world: would a blow break a body?
 
 use crate::common::baked::{block, pane};
-use frangible::{Body, Contact, FractureConfig, Material, Striker};
+use frangible::{Breakable, Contact, FractureConfig, Material, Striker};
+use frangible_rapier::rapier3d::dynamics::RigidBodyBuilder;
 use frangible_rapier::rapier3d::math::{Pose, Rotation, Vector};
 use frangible_rapier::{Ball, BreakableWorld, SurfaceProperties, WorldConfig, WorldError};
 use std::f32::consts::FRAC_PI_2;
@@ -18,8 +19,8 @@ fn world() -> (
         Vector::new(5.0, 1.0, -3.0),
         Rotation::from_rotation_y(FRAC_PI_2),
     );
-    let body = Body::new(pane().clone(), 1).unwrap();
-    let handle = world.insert_breakable(body, pose, Vector::ZERO, Vector::ZERO);
+    let body = Breakable::uniform(pane().clone()).unwrap().body(1);
+    let handle = world.insert(body, RigidBodyBuilder::dynamic().pose(pose));
     (world, handle.unwrap())
 }
 
@@ -87,8 +88,8 @@ fn a_blow_that_cannot_be_meant_is_refused() {
 fn a_body_of_the_world_strikes_as_it_does_in_its_own_frame() {
     let (mut world, handle) = world();
     let turned = Pose::from_parts(Vector::new(7.0, 1.0, -3.0), Rotation::from_rotation_z(0.3));
-    let other = Body::new(block().clone(), 2).unwrap();
-    let other = world.insert_breakable(other, turned, Vector::ZERO, Vector::ZERO);
+    let other = Breakable::uniform(block().clone()).unwrap().body(2);
+    let other = world.insert(other, RigidBodyBuilder::dynamic().pose(turned));
     let other = other.unwrap();
     let corner = frangible::glam::Vec3::new(-0.1, 0.04, 0.0);
     let (touches, toward) = (turned * corner, -Vector::X);

@@ -3,7 +3,7 @@
 use crate::common::baked::{block, pane};
 use crate::common::{at, body, relative, world};
 use frangible::glam::Vec3;
-use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
+use frangible_rapier::rapier3d::dynamics::{RigidBodyBuilder, RigidBodyHandle};
 use frangible_rapier::rapier3d::geometry::SharedShape;
 use frangible_rapier::rapier3d::math::{Pose, Vector};
 use frangible_rapier::{
@@ -22,9 +22,8 @@ fn throw(
     let mut world = world(false);
     // Every contact is integrated, however harmless.
     world.fracture_config_mut().culling = false;
-    let still = Vector::ZERO;
     let body = world
-        .insert_breakable(body(asset), Pose::IDENTITY, still, still)
+        .insert(body(asset), RigidBodyBuilder::dynamic())
         .unwrap();
     let start = at(place[0], place[1], top + ball.radius + 0.01);
     let velocity = Vector::new(0.0, 0.0, -speed);
@@ -67,7 +66,7 @@ fn a_ball_leaves_a_body_that_holds_as_the_blow_says() {
         let momentum = world.momentum();
         let energy = world.kinetic_energy();
         let (breaks, held) = step_to_hit(&mut world);
-        assert!(breaks.is_empty(), "{} broke", asset.name);
+        assert!(breaks.is_empty(), "{} broke", asset.name());
         let answer = &held[0].report.contacts[0];
         // Body and world frame are the same but for what the step turned.
         let (point, normal) = (answer.point, answer.normal);
@@ -77,7 +76,7 @@ fn a_ball_leaves_a_body_that_holds_as_the_blow_says() {
         let leaves = leaving(&world);
         println!(
             "{}: the engine gave {:.6} N·s, the blow {:.6} N·s in {:.0} µs; it leaves at {leaves:.4} m/s, says the blow {:.4} m/s",
-            asset.name,
+            asset.name(),
             held[0].contacts[0].impulse,
             answer.impulse,
             1e6 * answer.duration,
@@ -158,7 +157,13 @@ fn random_scene(seed: u64, breaking: Breaking) -> BreakableWorld {
     let drift = dice.vector();
     let spin = 3.0 * dice.vector();
     world
-        .insert_breakable(body(target), pose, drift, spin)
+        .insert(
+            body(target),
+            RigidBodyBuilder::dynamic()
+                .pose(pose)
+                .linvel(drift)
+                .angvel(spin),
+        )
         .unwrap();
     for side in [-1.0_f32, 1.0] {
         let speed = 8.0 + 15.0 * dice.roll().abs();
@@ -183,7 +188,13 @@ fn random_scene(seed: u64, breaking: Breaking) -> BreakableWorld {
                 let pose = Pose::new(start, 3.0 * dice.vector());
                 let spin = dice.vector();
                 let other = assets[(seed as usize / 4) % 2];
-                world.insert_breakable(body(other), pose, speed * way, spin)
+                world.insert(
+                    body(other),
+                    RigidBodyBuilder::dynamic()
+                        .pose(pose)
+                        .linvel(speed * way)
+                        .angvel(spin),
+                )
             }
         }
         .unwrap();
@@ -258,14 +269,16 @@ fn twenty_scenes_keep_momentum_and_gain_no_energy() {
 fn two_bodies_that_meet_and_hold_take_the_mean_of_their_blows() {
     let mut world = world(false);
     world.fracture_config_mut().culling = false;
-    let still = Vector::ZERO;
     let one = world
-        .insert_breakable(body(pane()), Pose::IDENTITY, still, still)
+        .insert(body(pane()), RigidBodyBuilder::dynamic())
         .unwrap();
     let pose = Pose::new(Vector::new(0.01, 0.02, 0.09), Vector::new(0.9, 0.6, 0.2));
     let down = Vector::new(0.0, 0.0, -1.0);
     let other = world
-        .insert_breakable(body(block()), pose, down, still)
+        .insert(
+            body(block()),
+            RigidBodyBuilder::dynamic().pose(pose).linvel(down),
+        )
         .unwrap();
     let (momentum, energy) = (world.momentum(), world.kinetic_energy());
     let (breaks, held) = step_to_hit(&mut world);
@@ -277,7 +290,7 @@ fn two_bodies_that_meet_and_hold_take_the_mean_of_their_blows() {
         contacts.map(|c| c.impulse).sum::<f64>()
     };
     let mean = 0.5 * (blow(one) + blow(other));
-    let given = (world.physics.bodies[one].linvel().as_dvec3() * pane().mass.mass).length();
+    let given = (world.physics.bodies[one].linvel().as_dvec3() * pane().mass().mass).length();
     println!(
         "pane {:.4}, block {:.4}, mean {mean:.4}, given {given:.4} N·s",
         blow(one),

@@ -39,7 +39,7 @@ fn game(speed: f32) -> (PhysicsWorld, RigidBodyHandle) {
 fn insert(world: &mut BreakableWorld) -> RigidBodyHandle {
     let rigid = RigidBodyBuilder::dynamic().translation(Vector::new(0.0, 0.5, 0.0));
     let plate = body(&box_asset(HALF, [2, 1, 1]));
-    let plate = world.insert_body(plate, rigid.user_data(42), |collider| {
+    let plate = world.insert_with(plate, rigid.user_data(42), |collider| {
         let groups = InteractionGroups::all().with_filter(Group::ALL);
         collider.user_data(43).collision_groups(groups)
     });

@@ -134,8 +134,7 @@ fn plate_and_ball() -> (BreakableWorld, RigidBodyHandle) {
     let mut world = world(true);
     world.physics.gravity = Vector::ZERO;
     let plate = body(&box_asset(HALF, [2, 1, 1]));
-    let still = Vector::ZERO;
-    let plate = world.insert_breakable(plate, at(0.0, 0.5, 0.0), still, still);
+    let plate = world.insert(plate, RigidBodyBuilder::dynamic().pose(at(0.0, 0.5, 0.0)));
     let plate = plate.unwrap();
     let ball = Ball {
         mass: 0.1,

@@ -2,6 +2,7 @@
 
 use crate::common::{at, body, box_asset, relative, slicer, step_to_break, unbreakable, world};
 use frangible::glam::Vec3;
+use frangible_rapier::rapier3d::dynamics::RigidBodyBuilder;
 use frangible_rapier::rapier3d::math::{Pose, Vector};
 use frangible_rapier::{Ball, BreakableWorld, SurfaceProperties, WorldConfig};
 
@@ -14,11 +15,12 @@ fn tumbling_box() -> BreakableWorld {
     let pose = Pose::new(Vector::new(0.3, -0.2, 0.5), Vector::new(0.4, 0.9, -0.3));
     let velocity = Vector::new(3.0, -2.0, 5.0);
     world
-        .insert_breakable(
+        .insert(
             body(&box_asset(HALF, [3, 2, 1])),
-            pose,
-            velocity,
-            Vector::new(4.0, -7.0, 9.0),
+            RigidBodyBuilder::dynamic()
+                .pose(pose)
+                .linvel(velocity)
+                .angvel(Vector::new(4.0, -7.0, 9.0)),
         )
         .unwrap();
     let feather = Ball {
@@ -61,11 +63,9 @@ fn shot(energy: f64, dt: f32) -> (BreakableWorld, f64) {
     let mut world = BreakableWorld::new(config).unwrap();
     let pose = Pose::new(Vector::ZERO, Vector::new(0.1, 0.2, 0.0));
     world
-        .insert_breakable(
+        .insert(
             body(&box_asset(HALF, [3, 2, 1])),
-            pose,
-            Vector::ZERO,
-            Vector::ZERO,
+            RigidBodyBuilder::dynamic().pose(pose),
         )
         .unwrap();
     let ball = Ball {

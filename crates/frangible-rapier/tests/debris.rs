@@ -2,7 +2,7 @@
 
 use crate::common::{at, body, box_asset, sliced, slicer, step_to_break, world};
 use frangible::glam::Vec3;
-use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
+use frangible_rapier::rapier3d::dynamics::{RigidBodyBuilder, RigidBodyHandle};
 use frangible_rapier::rapier3d::geometry::ShapeType;
 use frangible_rapier::rapier3d::math::Vector;
 use frangible_rapier::rapier3d::parry::bounding_volume::BoundingVolume;
@@ -13,7 +13,10 @@ const HALF: Vec3 = Vec3::new(0.02, 0.02, 0.0004);
 fn shoot(world: &mut BreakableWorld, x: f32) -> Vec<RigidBodyHandle> {
     let asset = box_asset(HALF, [1, 1, 1]);
     world
-        .insert_breakable(body(&asset), at(x, 0.0, 0.0), Vector::ZERO, Vector::ZERO)
+        .insert(
+            body(&asset),
+            RigidBodyBuilder::dynamic().pose(at(x, 0.0, 0.0)),
+        )
         .unwrap();
     let ball = Ball {
         mass: 0.01,

@@ -2,6 +2,7 @@
 
 use crate::common::{at, body, box_asset, slicer, world};
 use frangible::glam::Vec3;
+use frangible_rapier::rapier3d::dynamics::RigidBodyBuilder;
 use frangible_rapier::rapier3d::math::{Pose, Vector};
 use frangible_rapier::{Ball, BreakableWorld, SurfaceProperties};
 
@@ -23,7 +24,7 @@ fn four_panes_and_a_ball() -> BreakableWorld {
             Vector::new(0.2, 0.1, 0.3),
         );
         world
-            .insert_breakable(body(&asset), pose, Vector::ZERO, Vector::ZERO)
+            .insert(body(&asset), RigidBodyBuilder::dynamic().pose(pose))
             .unwrap();
     }
     let ball = Ball {

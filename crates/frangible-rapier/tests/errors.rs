@@ -3,6 +3,7 @@
 use crate::common::{self, at, body, box_asset, sliced, slicer, world};
 use frangible::glam::{DMat3, Quat, Vec3};
 use frangible::{InputError, Outcome};
+use frangible_rapier::rapier3d::dynamics::RigidBodyBuilder;
 use frangible_rapier::rapier3d::math::{Pose, Vector};
 use frangible_rapier::{Ball, BreakableWorld, SurfaceProperties, WorldConfig, WorldError};
 
@@ -16,7 +17,10 @@ fn poses_and_velocities_must_be_finite() {
     let bad = Vector::new(0.0, NAN, 0.0);
     let mut insert = |pose, v, w| {
         world
-            .insert_breakable(body(&asset), pose, v, w)
+            .insert(
+                body(&asset),
+                RigidBodyBuilder::dynamic().pose(pose).linvel(v).angvel(w),
+            )
             .unwrap_err()
     };
     assert!(matches!(
@@ -101,8 +105,8 @@ fn masses_sizes_and_surfaces_must_make_sense() {
     );
 
     let mut asset = (*box_asset(HALF, [1, 1, 1])).clone();
-    asset.mass.mass = f64::NAN;
-    assert!(frangible::Breakable::new(asset).is_err());
+    asset.parts_mut().mass.mass = f64::NAN;
+    assert!(frangible::Breakable::uniform(asset).is_err());
 }
 
 #[test]
@@ -142,11 +146,9 @@ fn a_full_world_and_a_body_that_is_gone_are_errors() {
 fn shot_box() -> BreakableWorld {
     let mut world = world(false);
     world
-        .insert_breakable(
+        .insert(
             body(&box_asset(HALF, [1, 1, 1])),
-            Pose::IDENTITY,
-            Vector::ZERO,
-            Vector::ZERO,
+            RigidBodyBuilder::dynamic(),
         )
         .unwrap();
     let ball = Ball {

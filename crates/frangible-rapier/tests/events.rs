@@ -2,6 +2,7 @@
 
 use crate::common::{at, body, box_asset, slicer, step_to_break, unbreakable, world};
 use frangible::glam::Vec3;
+use frangible_rapier::rapier3d::dynamics::RigidBodyBuilder;
 use frangible_rapier::rapier3d::math::{Pose, Vector};
 use frangible_rapier::{Ball, SurfaceProperties};
 
@@ -17,7 +18,12 @@ fn a_contact_holds_the_numbers_of_the_impact() {
     );
     let asset = box_asset(HALF, [2, 2, 2]);
     let handle = world
-        .insert_breakable(body(&asset), pose, Vector::new(0.0, 0.0, 1.0), Vector::ZERO)
+        .insert(
+            body(&asset),
+            RigidBodyBuilder::dynamic()
+                .pose(pose)
+                .linvel(Vector::new(0.0, 0.0, 1.0)),
+        )
         .unwrap();
     world.set_break_function(unbreakable());
     let ball = Ball {
@@ -57,7 +63,7 @@ fn a_contact_holds_the_numbers_of_the_impact() {
         contact.normal
     );
     assert!((contact.approach_speed - 5.0).abs() < 1e-3);
-    let m = asset.mass.mass as f32;
+    let m = asset.mass().mass as f32;
     let e = contact.striker.restitution;
     let expected = (1.0 + e) * 5.0 / (1.0 / m + 1.0 / 0.3);
     assert!(
@@ -71,7 +77,7 @@ fn a_contact_holds_the_numbers_of_the_impact() {
         contact.striker.contact_modulus,
         SurfaceProperties::STEEL.contact_modulus
     );
-    let mean = 0.5 * (SurfaceProperties::STEEL.restitution + asset.material.restitution as f32);
+    let mean = 0.5 * (SurfaceProperties::STEEL.restitution + asset.material().restitution as f32);
     assert!((e - mean).abs() < 1e-6);
     // The impulse is what the ball lost.
     let lost = 0.3 * (6.0 - world.physics.bodies[ball].linvel().z);
@@ -90,7 +96,10 @@ fn a_fall_on_the_floor_pushes_up_with_an_unmovable_striker() {
         .unwrap();
     let asset = box_asset(HALF, [1, 1, 1]);
     world
-        .insert_breakable(body(&asset), at(0.0, 0.3, 0.0), Vector::ZERO, Vector::ZERO)
+        .insert(
+            body(&asset),
+            RigidBodyBuilder::dynamic().pose(at(0.0, 0.3, 0.0)),
+        )
         .unwrap();
     world.set_break_function(unbreakable());
     let contacts = (0..200).find_map(|_| {
@@ -105,7 +114,7 @@ fn a_fall_on_the_floor_pushes_up_with_an_unmovable_striker() {
         "√(2 g 0.25 m) = 2.2 m/s, got {speed}"
     );
     let e = contacts[0].striker.restitution;
-    let expected = (1.0 + e) * speed * asset.mass.mass as f32;
+    let expected = (1.0 + e) * speed * asset.mass().mass as f32;
     assert!(
         total <= expected * 1.0001 && total > 0.8 * expected,
         "{total} N·s of at most {expected}"
@@ -124,11 +133,9 @@ fn resting_contact_is_no_impact() {
         .insert_fixed_half_space(Vector::ZERO, Vector::Y, SurfaceProperties::STONE)
         .unwrap();
     world
-        .insert_breakable(
+        .insert(
             body(&box_asset(HALF, [1, 1, 1])),
-            at(0.0, 0.0501, 0.0),
-            Vector::ZERO,
-            Vector::ZERO,
+            RigidBodyBuilder::dynamic().pose(at(0.0, 0.0501, 0.0)),
         )
         .unwrap();
     world.set_break_function(slicer(HALF, [2, 2, 2], 0.0, 0.0));
@@ -149,7 +156,7 @@ fn a_break_event_tells_all() {
     let asset = box_asset(HALF, [2, 2, 2]);
     let pose = Pose::new(Vector::new(0.1, 0.2, 0.3), Vector::new(0.3, 0.2, 0.1));
     let parent = world
-        .insert_breakable(body(&asset), pose, Vector::ZERO, Vector::ZERO)
+        .insert(body(&asset), RigidBodyBuilder::dynamic().pose(pose))
         .unwrap();
     let ball = Ball {
         mass: 0.1,
@@ -201,11 +208,11 @@ fn two_boxes_that_meet_both_break_in_one_step() {
     for side in [-1.0_f32, 1.0] {
         let pose = at(side * 0.0525, 0.0, 0.0);
         world
-            .insert_breakable(
+            .insert(
                 body(&asset),
-                pose,
-                Vector::new(-3.0 * side, 0.0, 0.0),
-                Vector::ZERO,
+                RigidBodyBuilder::dynamic()
+                    .pose(pose)
+                    .linvel(Vector::new(-3.0 * side, 0.0, 0.0)),
             )
             .unwrap();
     }
@@ -227,7 +234,10 @@ fn a_break_that_does_not_fit_leaves_the_body_whole() {
     let mut world = frangible_rapier::BreakableWorld::new(config).unwrap();
     let asset = box_asset(HALF, [1, 1, 1]);
     let parent = world
-        .insert_breakable(body(&asset), at(0.0, 0.0, 0.0), Vector::ZERO, Vector::ZERO)
+        .insert(
+            body(&asset),
+            RigidBodyBuilder::dynamic().pose(at(0.0, 0.0, 0.0)),
+        )
         .unwrap();
     let ball = Ball {
         mass: 0.1,

@@ -3,7 +3,7 @@
 use crate::common::{body, box_asset, unbreakable, world};
 use frangible::Material;
 use frangible::glam::Vec3;
-use frangible_rapier::rapier3d::dynamics::FrictionModel;
+use frangible_rapier::rapier3d::dynamics::{FrictionModel, RigidBodyBuilder};
 use frangible_rapier::rapier3d::math::{Pose, Rotation, Vector};
 use frangible_rapier::{HeldEvent, SurfaceProperties};
 
@@ -22,7 +22,10 @@ fn landing(model: FrictionModel, velocity: Vector, turn: f32) -> (HeldEvent, Vec
     let pose = Pose::from_parts(Vector::new(0.0, HALF.y + 0.01, 0.0), rotation);
     let asset = box_asset(HALF, [1, 1, 1]);
     let tile = world
-        .insert_breakable(body(&asset), pose, velocity, Vector::ZERO)
+        .insert(
+            body(&asset),
+            RigidBodyBuilder::dynamic().pose(pose).linvel(velocity),
+        )
         .unwrap();
     for _ in 0..20 {
         let before = world.physics.bodies[tile].linvel();

@@ -13,11 +13,9 @@ const HALF: Vec3 = Vec3::new(0.10, 0.02, 0.05);
 fn fragments_inherit_surface_groups_gravity_and_user_data() {
     let mut world = world(true);
     let parent = world
-        .insert_breakable(
+        .insert(
             body(&box_asset(HALF, [2, 1, 1])),
-            at(0.0, 0.5, 0.0),
-            Vector::ZERO,
-            Vector::ZERO,
+            RigidBodyBuilder::dynamic().pose(at(0.0, 0.5, 0.0)),
         )
         .unwrap();
     let groups = InteractionGroups::new(
@@ -68,11 +66,9 @@ fn fragments_inherit_surface_groups_gravity_and_user_data() {
 fn joints_move_to_the_fragment_that_holds_them_or_are_released() {
     let mut world = world(false);
     let parent = world
-        .insert_breakable(
+        .insert(
             body(&box_asset(HALF, [2, 1, 1])),
-            at(0.0, 0.0, 0.0),
-            Vector::ZERO,
-            Vector::ZERO,
+            RigidBodyBuilder::dynamic().pose(at(0.0, 0.0, 0.0)),
         )
         .unwrap();
     let anchor = |world: &mut frangible_rapier::BreakableWorld, x: f32, y: f32| {
@@ -142,7 +138,10 @@ fn what_leaned_on_the_broken_body_wakes() {
         .unwrap();
     let table = box_asset(HALF, [2, 1, 1]);
     world
-        .insert_breakable(body(&table), at(0.0, 0.02, 0.0), Vector::ZERO, Vector::ZERO)
+        .insert(
+            body(&table),
+            RigidBodyBuilder::dynamic().pose(at(0.0, 0.02, 0.0)),
+        )
         .unwrap();
     let load = Ball {
         mass: 0.05,

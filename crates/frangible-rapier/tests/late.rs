@@ -27,8 +27,11 @@ fn world(delay: usize) -> (BreakableWorld, RigidBodyHandle) {
         delay,
     };
     let mut world = BreakableWorld::new(config).unwrap();
-    let still = Vector::ZERO;
-    let plate = (world.insert_breakable(body(pane()), at(0.0, 0.0, 0.0), still, still)).unwrap();
+    let plate = (world.insert(
+        body(pane()),
+        RigidBodyBuilder::dynamic().pose(at(0.0, 0.0, 0.0)),
+    ))
+    .unwrap();
     let ball = Ball {
         mass: 0.05,
         radius: 0.01,
@@ -147,9 +150,8 @@ fn a_body_of_two_balls_touches_with_both() {
         heard.extend(contacts.iter().map(|c| c.point));
         Ok(held(None))
     });
-    let still = Vector::ZERO;
     let plate = body(&box_asset(half, [4, 4, 1]));
-    (world.insert_breakable(plate, at(0.0, 0.0, 0.0), still, still)).unwrap();
+    (world.insert(plate, RigidBodyBuilder::dynamic().pose(at(0.0, 0.0, 0.0)))).unwrap();
     let dumbbell = RigidBodyBuilder::dynamic()
         .translation(Vector::new(0.0, 0.0, 0.2))
         .linvel(Vector::new(0.0, 0.0, -5.0));

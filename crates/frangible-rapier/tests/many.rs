@@ -7,7 +7,7 @@ use crate::common::{at, body, box_asset, relative, slicer};
 use frangible::glam::Vec3;
 use frangible::internals::{Force, LookedAt, is_harmless, rest, rest_margin_at_least};
 use frangible::{Contact, FractureConfig, Outcome, Striker, impact};
-use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
+use frangible_rapier::rapier3d::dynamics::{RigidBodyBuilder, RigidBodyHandle};
 use frangible_rapier::rapier3d::geometry::ShapeType;
 use frangible_rapier::rapier3d::math::Vector;
 use frangible_rapier::{
@@ -35,9 +35,11 @@ fn firing_squad(world: &mut BreakableWorld, count: usize) -> Vec<RigidBodyHandle
     (0..count)
         .map(|i| {
             let x = 0.5 * i as f32;
-            let still = Vector::ZERO;
             let pane = world
-                .insert_breakable(body(&asset), at(x, 0.0, 0.0), still, still)
+                .insert(
+                    body(&asset),
+                    RigidBodyBuilder::dynamic().pose(at(x, 0.0, 0.0)),
+                )
                 .unwrap();
             let ball = Ball {
                 mass: 0.2,
@@ -174,7 +176,13 @@ fn any_number_of_threads_gives_the_same_bits() {
                 let speed = Vector::new(0.0, 0.0, -6.0);
                 let spin = Vector::new(0.3, 0.1 * i as f32, 0.2);
                 world
-                    .insert_breakable(body(block()), pose, speed, spin)
+                    .insert(
+                        body(block()),
+                        RigidBodyBuilder::dynamic()
+                            .pose(pose)
+                            .linvel(speed)
+                            .angvel(spin),
+                    )
                     .unwrap();
             }
             let wall = Vector::new(5.0, 5.0, 0.1);
@@ -239,10 +247,12 @@ fn a_collider_has_no_more_parts_than_asked_for() {
         let boxed = box_asset(HALF, CELLS);
         // A body that fills less of its bounds is no box, whatever its cells.
         let mut hollow = (*boxed).clone();
-        hollow.mass.volume *= 0.9;
+        hollow.parts_mut().mass.volume *= 0.9;
         let [pane, hollow] = [boxed, Arc::new(hollow)].map(|asset| {
-            let still = Vector::ZERO;
-            let handle = world.insert_breakable(body(&asset), at(0.0, 0.0, 0.0), still, still);
+            let handle = world.insert(
+                body(&asset),
+                RigidBodyBuilder::dynamic().pose(at(0.0, 0.0, 0.0)),
+            );
             world.physics.bodies[handle.unwrap()].colliders()[0]
         });
         let found = world.physics.colliders[pane].shape();
@@ -265,7 +275,7 @@ fn a_body_carries_what_the_quick_margin_says() {
     let config = FractureConfig::default();
     for (asset, held) in [(block(), 0.0), (shelf(), 9.81)] {
         let body = body(asset);
-        let points = &asset.fracture.positions;
+        let points = &asset.fracture().positions;
         for k in 0..40 {
             let force = |j: usize| {
                 let number = |seed: usize| ((seed * 7919) % 1000) as f32 / 500.0 - 1.0;

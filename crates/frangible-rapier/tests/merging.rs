@@ -8,7 +8,7 @@ use crate::common::{self, Judge, at, body, box_asset, slicer, unbreakable};
 use frangible::Breakable;
 use frangible::glam::Vec3;
 use frangible_bake::pieces::{Method, Pieces};
-use frangible_rapier::rapier3d::dynamics::{RigidBodyHandle, RigidBodyType};
+use frangible_rapier::rapier3d::dynamics::{RigidBodyBuilder, RigidBodyHandle, RigidBodyType};
 use frangible_rapier::rapier3d::geometry::SharedShape;
 use frangible_rapier::rapier3d::math::{Pose, Vector};
 use frangible_rapier::rapier3d::parry::bounding_volume::BoundingVolume;
@@ -40,7 +40,7 @@ fn drop_slab(
     let asset = box_asset(HALF, [1, 1, 1]);
     let pose = at(x, height, 0.0);
     world
-        .insert_breakable(body(&asset), pose, Vector::ZERO, Vector::ZERO)
+        .insert(body(&asset), RigidBodyBuilder::dynamic().pose(pose))
         .unwrap();
     let broke = common::step_to_break(world, 240).expect("it falls on stone");
     run(world, seconds);
@@ -366,16 +366,14 @@ fn slab_on_a_shelf() -> (BreakableWorld, RigidBodyHandle, Vec<RigidBodyHandle>) 
     let mut world = floor(AtRest::Merge);
     let half = Vec3::new(0.2, 0.01, 0.2);
     let mut asset = (*box_asset(half, [4, 1, 4])).clone();
-    asset.supported = (asset.fracture.positions.iter().zip(0..))
+    *asset.parts_mut().supported = (asset.fracture().positions.iter().zip(0..))
         .filter(|(p, _)| p.x < -0.19)
         .map(|(_, node)| node)
         .collect();
     let shelf = world
-        .insert_breakable(
+        .insert(
             body(&Arc::new(asset)),
-            at(0.0, 0.2, 0.0),
-            Vector::ZERO,
-            Vector::ZERO,
+            RigidBodyBuilder::dynamic().pose(at(0.0, 0.2, 0.0)),
         )
         .unwrap();
     let slice = slicer(HALF, [3, 1, 3], 0.0, 0.0);
@@ -482,13 +480,16 @@ fn fallen_pane() -> (BreakableWorld, Vec<RigidBodyHandle>) {
     world
         .insert_fixed_half_space(Vector::ZERO, Vector::Y, SurfaceProperties::STONE)
         .unwrap();
-    world.set_piece_model(Some(Arc::new(Pieces::new(Method::ParentModes))));
+    world = world.with_piece_model(Pieces::new(Method::ParentModes));
     // On its edge.
     let place = Pose::new(Vector::new(0.0, 1.0, 0.0), Vector::new(0.25, 0.0, 0.0));
-    let kind = Breakable::new(Arc::clone(pane())).unwrap();
+    let kind = Breakable::uniform(Arc::clone(pane())).unwrap();
     let fast = Vector::new(0.0, -4.0, 0.0);
     world
-        .insert_breakable(kind.body(1), place, fast, Vector::ZERO)
+        .insert(
+            kind.body(1),
+            RigidBodyBuilder::dynamic().pose(place).linvel(fast),
+        )
         .unwrap();
     until_merged(&mut world);
     println!("{} bodies", world.physics.bodies.len());
@@ -527,7 +528,7 @@ fn a_merged_piece_that_is_hit_hard_breaks_as_one_that_sleeps_does() {
     }
     let event = broke.iter().find(|e| e.parent == hit).expect("it breaks");
     assert_eq!(event.cause, BreakCause::Impact);
-    assert!(event.asset.portion.is_some() && event.fragments.len() > 1);
+    assert!(event.asset.portion().is_some() && event.fragments.len() > 1);
     assert!(!world.physics.bodies.contains(hit));
     assert!(world.rubble_of(hit).is_none());
     // Its own pieces are of the same origin.

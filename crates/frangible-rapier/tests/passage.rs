@@ -1,5 +1,6 @@
 //! A striker that hits a pane goes on through it.
 
+use frangible_rapier::rapier3d::dynamics::RigidBodyBuilder;
 use std::sync::Arc;
 
 use crate::common::baked::pane;
@@ -16,7 +17,10 @@ fn after_the_pane(mass: f32, speed: f32, breaks: bool) -> (f32, f32) {
     let mut world = world(false);
     let pane = box_asset(PANE, [4, 4, 1]);
     world
-        .insert_breakable(body(&pane), at(0.0, 0.0, 0.0), Vector::ZERO, Vector::ZERO)
+        .insert(
+            body(&pane),
+            RigidBodyBuilder::dynamic().pose(at(0.0, 0.0, 0.0)),
+        )
         .unwrap();
     let ball = Ball { mass, radius: 0.01 };
     let start = at(0.013, 0.021, -0.3);
@@ -61,11 +65,9 @@ fn lost(pane: &Breakable, seed: u64, speed: f32, rate: f32) -> f64 {
     (config.gravity, config.dt) = (Vector::ZERO, 1.0 / rate);
     let mut world = BreakableWorld::new(config).unwrap();
     world
-        .insert_breakable(
+        .insert(
             pane.body(seed),
-            at(0.0, 0.0, 0.0),
-            Vector::ZERO,
-            Vector::ZERO,
+            RigidBodyBuilder::dynamic().pose(at(0.0, 0.0, 0.0)),
         )
         .unwrap();
     let ball = Ball {
@@ -91,7 +93,7 @@ fn lost(pane: &Breakable, seed: u64, speed: f32, rate: f32) -> f64 {
 
 #[test]
 fn a_ball_loses_the_same_whatever_the_length_of_a_step() {
-    let pane = Breakable::new(Arc::clone(pane())).unwrap();
+    let pane = Breakable::uniform(Arc::clone(pane())).unwrap();
     for speed in [8.0, 12.0, 20.0, 30.0] {
         for seed in 0..3 {
             let losses = [60.0, 120.0, 240.0].map(|rate| lost(&pane, seed, speed, rate));

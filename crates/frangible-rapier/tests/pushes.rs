@@ -3,14 +3,14 @@
 use crate::common::baked::{block, pane};
 use crate::common::{at, body, unbreakable, world};
 use frangible::glam::{DVec3, Vec3};
-use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
+use frangible_rapier::rapier3d::dynamics::{RigidBodyBuilder, RigidBodyHandle};
 use frangible_rapier::rapier3d::math::{Pose, Vector};
 use frangible_rapier::{Ball, BreakCause, BreakableWorld, SurfaceProperties, WorldError};
 
 fn with_pane(pose: Pose) -> (BreakableWorld, RigidBodyHandle) {
     let mut world = world(false);
     let handle = world
-        .insert_breakable(body(pane()), pose, Vector::ZERO, Vector::ZERO)
+        .insert(body(pane()), RigidBodyBuilder::dynamic().pose(pose))
         .unwrap();
     (world, handle)
 }
@@ -88,13 +88,18 @@ fn a_scripted_blow_adds_exactly_its_impulse() {
         world.set_break_function(unbreakable());
         let velocity = Vector::new(1.0, 0.0, 0.5);
         let handle = world
-            .insert_breakable(body(asset), at(0.0, 1.0, 0.0), velocity, Vector::ZERO)
+            .insert(
+                body(asset),
+                RigidBodyBuilder::dynamic()
+                    .pose(at(0.0, 1.0, 0.0))
+                    .linvel(velocity),
+            )
             .unwrap();
         let start = world.momentum();
         let point = Vector::new(0.03, 1.02, 0.0);
         world.fracture_at(handle, point, impulse).unwrap();
         let events = world.step().unwrap().to_vec();
-        assert_eq!(events.len(), usize::from(breaks), "{}", asset.name);
+        assert_eq!(events.len(), usize::from(breaks), "{}", asset.name());
         let gained = world.momentum() - start;
         let rounding = 1e-4 * world.momentum().length();
         assert!(

@@ -5,7 +5,7 @@ use crate::common::{at, body, box_asset, sliced, step_to_break, world};
 use frangible::glam::Vec3;
 use frangible::internals::{Fields, Force, Preset, rest};
 use frangible::{Body, Breakable, FractureConfig, Outcome};
-use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
+use frangible_rapier::rapier3d::dynamics::{RigidBodyBuilder, RigidBodyHandle};
 use frangible_rapier::rapier3d::geometry::SharedShape;
 use frangible_rapier::rapier3d::math::{Pose, Vector};
 use frangible_rapier::{BreakCause, BreakableWorld, SurfaceProperties, WorldConfig};
@@ -42,7 +42,7 @@ fn nothing_breaks_from_merely_lying_there() {
         let pose = at(0.0, 0.0, z + 0.5 * thickness);
         z += thickness;
         let handle = world
-            .insert_breakable(body(asset), pose, Vector::ZERO, Vector::ZERO)
+            .insert(body(asset), RigidBodyBuilder::dynamic().pose(pose))
             .unwrap();
         never_sleeps(&mut world, handle);
         stack.push(handle);
@@ -99,7 +99,7 @@ fn length(positions: &[Vec3]) -> f32 {
 fn broke_at(world: &mut BreakableWorld, half: f32) -> Option<f32> {
     let mass = 10.0;
     world
-        .insert_breakable(body(shelf()), Pose::IDENTITY, Vector::ZERO, Vector::ZERO)
+        .insert(body(shelf()), RigidBodyBuilder::dynamic())
         .unwrap();
     let cube = SharedShape::cuboid(half, half, half);
     let start = at(0.0, 0.0, 0.005 + half);
@@ -115,7 +115,7 @@ fn broke_at(world: &mut BreakableWorld, half: f32) -> Option<f32> {
             assert_eq!(event.strikers, [weight]);
             assert!(event.fracture.fragments.iter().any(|f| f.supported));
             // No piece reaches from one held end to the other any more.
-            let whole = length(&shelf().fracture.positions);
+            let whole = length(&shelf().fracture().positions);
             let pieces = event.fracture.fragments.iter();
             assert!(
                 pieces
@@ -156,7 +156,7 @@ fn one_step_of_overload_breaks_nothing_and_four_do() {
         let asset = box_asset(half, [1, 1, 1]);
         let start = at(0.0, 0.05, 0.0);
         world
-            .insert_breakable(body(&asset), start, Vector::ZERO, Vector::ZERO)
+            .insert(body(&asset), RigidBodyBuilder::dynamic().pose(start))
             .unwrap();
         for _ in 0..10 {
             world.step().unwrap();
@@ -196,12 +196,12 @@ fn what_sleeps_is_not_asked_again() {
         rest(body, forces, gravity, config)
     });
     world
-        .insert_breakable(body(shelf()), Pose::IDENTITY, Vector::ZERO, Vector::ZERO)
+        .insert(body(shelf()), RigidBodyBuilder::dynamic())
         .unwrap();
     let brick = box_asset(Vec3::splat(0.02), [1, 1, 1]);
     let start = at(0.0, 0.0, 0.0251);
     world
-        .insert_breakable(body(&brick), start, Vector::ZERO, Vector::ZERO)
+        .insert(body(&brick), RigidBodyBuilder::dynamic().pose(start))
         .unwrap();
     let asleep = (0..600).find(|_| {
         world.step().unwrap();
@@ -226,7 +226,7 @@ fn what_pushes_an_overlap_apart_breaks_nothing() {
     };
     let put = |world: &mut BreakableWorld, asset, pose| {
         world
-            .insert_breakable(body(asset), pose, Vector::ZERO, Vector::ZERO)
+            .insert(body(asset), RigidBodyBuilder::dynamic().pose(pose))
             .unwrap()
     };
     let bar = |world: &mut BreakableWorld, x: f32, z: f32| {
@@ -271,13 +271,11 @@ fn holds_for(share: f32, tires: bool, most: f64) -> Option<f64> {
     let (half, mass) = (0.015, 10.0);
     let mut fields = Fields::default();
     fields.fatigue = Preset::named("glass").unwrap().fatigue.filter(|_| tires);
-    let kind = Breakable::new(shelf().clone()).unwrap();
+    let kind = Breakable::uniform(shelf().clone()).unwrap();
     let glass = kind.with_fields(fields).unwrap().body(1);
     let newton = share * predicted(&glass, half, 0.005);
     let mut world = heavy_world(true);
-    world
-        .insert_breakable(glass, Pose::IDENTITY, Vector::ZERO, Vector::ZERO)
-        .unwrap();
+    world.insert(glass, RigidBodyBuilder::dynamic()).unwrap();
     let cube = SharedShape::cuboid(half, half, half);
     let start = at(0.0, 0.0, 0.005 + half);
     let weight = world
@@ -313,11 +311,11 @@ fn sleeper_breaks_at(tires: bool) -> Option<f64> {
         .unwrap();
     let mut fields = Fields::default();
     fields.fatigue = Preset::named("glass").unwrap().fatigue.filter(|_| tires);
-    let kind = Breakable::new(box_asset(half, [1, 1, 1])).unwrap();
+    let kind = Breakable::uniform(box_asset(half, [1, 1, 1])).unwrap();
     let block = kind.with_fields(fields).unwrap().body(1);
     let start = at(0.0, 0.05, 0.0);
     let block = world
-        .insert_breakable(block, start, Vector::ZERO, Vector::ZERO)
+        .insert(block, RigidBodyBuilder::dynamic().pose(start))
         .unwrap();
     world.set_rest_function(move |_, _, _, config| {
         Ok(if config.load_duration > 5.0 {

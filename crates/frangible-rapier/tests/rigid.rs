@@ -2,6 +2,7 @@
 
 use crate::common::{at, body, box_asset, unbreakable, world};
 use frangible::glam::Vec3;
+use frangible_rapier::rapier3d::dynamics::RigidBodyBuilder;
 use frangible_rapier::rapier3d::geometry::SharedShape;
 use frangible_rapier::rapier3d::math::Vector;
 use frangible_rapier::{SurfaceProperties, WorldError};
@@ -40,7 +41,10 @@ fn it_strikes_with_its_surface() {
     let mut world = world(false);
     let asset = box_asset(Vec3::splat(0.05), [2, 2, 2]);
     world
-        .insert_breakable(body(&asset), at(0.0, 0.0, 0.0), Vector::ZERO, Vector::ZERO)
+        .insert(
+            body(&asset),
+            RigidBodyBuilder::dynamic().pose(at(0.0, 0.0, 0.0)),
+        )
         .unwrap();
     world.set_break_function(unbreakable());
     let surface = SurfaceProperties {

@@ -2,7 +2,7 @@
 
 use crate::common::{at, body, box_asset, slicer, step_to_break, world};
 use frangible::glam::Vec3;
-use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
+use frangible_rapier::rapier3d::dynamics::{RigidBodyBuilder, RigidBodyHandle};
 use frangible_rapier::rapier3d::math::Vector;
 use frangible_rapier::{Ball, BreakEvent, BreakableWorld, SurfaceProperties};
 
@@ -20,11 +20,9 @@ fn broken_box(gravity: bool, height: f32, overlap: f32) -> (BreakableWorld, Brea
         .unwrap();
     let asset = box_asset(HALF, [2, 2, 2]);
     world
-        .insert_breakable(
+        .insert(
             body(&asset),
-            at(0.0, height, 0.0),
-            Vector::ZERO,
-            Vector::ZERO,
+            RigidBodyBuilder::dynamic().pose(at(0.0, height, 0.0)),
         )
         .unwrap();
     world.set_break_function(slicer(HALF, [3, 3, 3], overlap, 0.0));

@@ -4,8 +4,9 @@ use std::sync::Arc;
 
 use crate::common::{Judge, at, body, box_asset, sliced, step_to_break, unbreakable, world};
 use frangible::glam::Vec3;
+use frangible::internals::asset::AssetParts;
 use frangible::{Asset, Outcome};
-use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
+use frangible_rapier::rapier3d::dynamics::{RigidBodyBuilder, RigidBodyHandle};
 use frangible_rapier::rapier3d::math::{Pose, Vector};
 use frangible_rapier::{Ball, BreakableWorld, SurfaceProperties};
 
@@ -17,13 +18,13 @@ const PANE: Vec3 = Vec3::new(0.003, 0.15, 0.15);
 /// The box, held at the nodes for which `held` is true.
 fn held_box(half: Vec3, cells: [usize; 3], held: impl Fn(Vec3) -> bool) -> Arc<Asset> {
     let asset = box_asset(half, cells);
-    let positions = asset.fracture.positions.iter().zip(0_u32..);
+    let positions = asset.fracture().positions.iter().zip(0_u32..);
     let supported: Vec<u32> = positions.filter(|(p, _)| held(**p)).map(|p| p.1).collect();
     assert!(!supported.is_empty());
-    Arc::new(Asset {
+    Arc::new(Asset::from_parts(AssetParts {
         supported,
-        ..(*asset).clone()
-    })
+        ..(*asset).clone().into_parts()
+    }))
 }
 
 /// Every impact slices the box; pieces whose centre of mass `held` accepts are supported.
@@ -46,7 +47,7 @@ fn shelf(energy: f64) -> (BreakableWorld, RigidBodyHandle) {
     let mut world = world(true);
     let asset = held_box(SHELF, [4, 1, 3], |p| p.x < -0.099);
     let handle = world
-        .insert_breakable(body(&asset), Pose::IDENTITY, Vector::ZERO, Vector::ZERO)
+        .insert(body(&asset), RigidBodyBuilder::dynamic())
         .unwrap();
     world.set_break_function(holding_slicer(SHELF, [2, 1, 1], energy, |c| c.x < -0.02));
     (world, handle)
@@ -56,7 +57,7 @@ fn pane(energy: f64) -> (BreakableWorld, RigidBodyHandle) {
     let mut world = world(true);
     let asset = held_box(PANE, [1, 4, 4], |p| p.y.abs() > 0.149 || p.z.abs() > 0.149);
     let handle = world
-        .insert_breakable(body(&asset), Pose::IDENTITY, Vector::ZERO, Vector::ZERO)
+        .insert(body(&asset), RigidBodyBuilder::dynamic())
         .unwrap();
     // Five by five: the outer ring is held, nine pieces are not.
     world.set_break_function(holding_slicer(PANE, [1, 5, 5], energy, |c| {
@@ -90,7 +91,13 @@ fn a_supported_body_is_fixed_whatever_velocity_it_is_given() {
     let mut world = world(true);
     let asset = held_box(SHELF, [4, 1, 3], |p| p.x < -0.099);
     let handle = world
-        .insert_breakable(body(&asset), at(1.0, 2.0, 3.0), Vector::X, Vector::Y)
+        .insert(
+            body(&asset),
+            RigidBodyBuilder::dynamic()
+                .pose(at(1.0, 2.0, 3.0))
+                .linvel(Vector::X)
+                .angvel(Vector::Y),
+        )
         .unwrap();
     for _ in 0..100 {
         world.step().unwrap();
@@ -141,11 +148,11 @@ fn a_dynamic_body_that_hits_a_held_one_meets_an_immovable_striker() {
     let brick = box_asset(Vec3::splat(0.02), [1, 1, 1]);
     let start = at(0.05, 0.05, 0.0);
     let brick = world
-        .insert_breakable(
+        .insert(
             body(&brick),
-            start,
-            Vector::new(0.0, -3.0, 0.0),
-            Vector::ZERO,
+            RigidBodyBuilder::dynamic()
+                .pose(start)
+                .linvel(Vector::new(0.0, -3.0, 0.0)),
         )
         .unwrap();
     let mut seen = Vec::new();

@@ -2,7 +2,7 @@
 
 use crate::common::{at, body, box_asset, slicer, step_to_break, unbreakable, world};
 use frangible::glam::Vec3;
-use frangible_rapier::rapier3d::dynamics::RigidBodyType;
+use frangible_rapier::rapier3d::dynamics::{RigidBodyBuilder, RigidBodyType};
 use frangible_rapier::rapier3d::math::{Pose, Vector};
 use frangible_rapier::{Ball, SurfaceProperties};
 
@@ -47,7 +47,7 @@ fn a_fast_ball_always_meets_a_breakable_pane() {
         for step in 0..12 {
             let mut world = world(false);
             let pane = world
-                .insert_breakable(body(&asset), Pose::IDENTITY, Vector::ZERO, Vector::ZERO)
+                .insert(body(&asset), RigidBodyBuilder::dynamic())
                 .unwrap();
             if fixed {
                 world.physics.bodies[pane].set_body_type(RigidBodyType::Fixed, true);
@@ -100,7 +100,13 @@ fn pieces_never_fall_through_a_thin_floor() {
         let pose = Pose::new(Vector::new(0.0, 0.5, 0.0), turn);
         let down = Vector::new(0.0, -30.0, 0.0);
         world
-            .insert_breakable(body(&asset), pose, down, Vector::new(30.0, 10.0, 20.0))
+            .insert(
+                body(&asset),
+                RigidBodyBuilder::dynamic()
+                    .pose(pose)
+                    .linvel(down)
+                    .angvel(Vector::new(30.0, 10.0, 20.0)),
+            )
             .unwrap();
         world.set_break_function(slicer(half, [5, 5, 1], 0.0, 0.0));
         let event = step_to_break(&mut world, 60).expect("it hits the floor");

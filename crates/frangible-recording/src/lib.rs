@@ -23,6 +23,6 @@ pub use frangible_geometry::{Blending, Image, ImageKind, Placement, Texture, Tex
 pub use glam;
 pub use place::{make_folder, try_file};
 pub use recording::{
-    Floor, Grain, MeshPart, Moments, Pose, Pulse, RecordedBlow, RecordedCrack, RecordedMesh,
-    RecordedNode, RecordedSlide, RecordedTouch, Recording, SurfaceMaterial, View,
+    Floor, Grain, MeshPart, Moments, Pose, RecordedBlow, RecordedCrack, RecordedMesh, RecordedNode,
+    RecordedPulse, RecordedSlide, RecordedTouch, Recording, SurfaceMaterial, View,
 };

@@ -64,7 +64,7 @@ pub struct RecordedBlow {
     /// The nodes of its pieces; empty if it held.
     pub pieces: Range<usize>,
     /// The force history of each contact.
-    pub pulses: Vec<Pulse>,
+    pub pulses: Vec<RecordedPulse>,
     /// The new cracks, and extensions of old cracks.
     pub cracks: Vec<RecordedCrack>,
     /// Energy spent on the cracks, J.
@@ -73,7 +73,7 @@ pub struct RecordedBlow {
 
 /// Force history at a point of a node.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Pulse {
+pub struct RecordedPulse {
     /// Point of application, m, in the frame of the node.
     pub point: Vec3,
     /// Unit direction of the force on the node, in its frame.
@@ -84,7 +84,7 @@ pub struct Pulse {
     pub force: Vec<f32>,
 }
 
-impl Pulse {
+impl RecordedPulse {
     /// The impulse of the force, which is linear between its values, N·s.
     #[must_use]
     pub fn impulse(&self) -> f64 {

@@ -3,7 +3,7 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use frangible::{Body, FractureConfig, Outcome, impact};
+use frangible::{Breakable, FractureConfig, Outcome, impact};
 
 #[allow(dead_code, reason = "shared with the tests")]
 #[path = "../tests/common/mod.rs"]
@@ -33,7 +33,9 @@ fn breaks(c: &mut Criterion) {
             false,
         ),
     ] {
-        let body = Body::new(asset.clone(), 1).expect("a sound asset");
+        let body = Breakable::uniform(asset.clone())
+            .expect("a sound asset")
+            .body(1);
         let outcome =
             impact(&body, std::slice::from_ref(&contact), &config).expect("a sound contact");
         assert_eq!(matches!(outcome, Outcome::Held { .. }), held, "{name}");

@@ -9,7 +9,7 @@ use std::time::Duration;
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use frangible::glam::Vec3;
 use frangible::internals::StageTimings;
-use frangible::{Asset, Body, Contact, FractureConfig, Material, impact};
+use frangible::{Asset, Breakable, Contact, FractureConfig, Material, impact};
 use frangible_bake::{BakeSpec, Shape, bake};
 
 #[allow(dead_code, reason = "shared with the tests")]
@@ -29,7 +29,7 @@ fn block(tets: f64) -> Arc<Asset> {
         fracture: Some(size),
         ..BakeSpec::new("block", shape, brick)
     };
-    Arc::new(bake(&spec, &mut |_| {}).expect("a sound body").0)
+    Arc::new(bake(&spec).expect("a sound body"))
 }
 
 /// The block lands on its corner.
@@ -52,7 +52,9 @@ fn stages(c: &mut Criterion) {
         let mut group = c.benchmark_group(stage);
         group.sample_size(10);
         for (name, asset, contact) in &cases {
-            let body = Body::new(Arc::clone(asset), 1).expect("a sound asset");
+            let body = Breakable::uniform(Arc::clone(asset))
+                .expect("a sound asset")
+                .body(1);
             let time = || {
                 let outcome = impact(
                     black_box(&body),

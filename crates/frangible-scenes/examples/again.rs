@@ -14,7 +14,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let long = Duration::try_from_secs_f64(seconds.parse()?)?;
     let scene = scene(name)?;
-    let baked = bake(&scene, &mut |_| {})?;
+    let baked = bake(&scene)?;
     let first = first_break(&scene, &baked, &mut |_| {})?
         .ok_or_else(|| format!("nothing breaks in the scene `{name}`"))?;
     first.body.prepare_for_blows(&first.config);

@@ -28,14 +28,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("|---|{}", "---|".repeat(GROUPS.len() + 4));
     let mut seen = BTreeSet::new();
     for name in SCENE_NAMES.iter().filter(wanted) {
-        for baked in bake(&scene(name)?, &mut |_| {})? {
+        for baked in bake(&scene(name)?)? {
             let asset = &*baked.asset;
             let bytes = asset.to_bytes();
-            if !seen.insert((name, asset.name.clone(), bytes.len())) {
+            if !seen.insert((name, asset.name().to_owned(), bytes.len())) {
                 continue;
             }
             let (compact, change) = compacted(asset);
-            print!("| {name}, {} |", asset.name);
+            print!("| {name}, {} |", asset.name());
             for (_, numbers) in &GROUPS {
                 print!(" {:.2} |", megabytes(group(&bytes, numbers)));
             }
@@ -66,24 +66,22 @@ fn group(bytes: &[u8], numbers: &RangeInclusive<u32>) -> usize {
 fn change_of_impacts(exact: &Asset, compact: &Asset) -> Result<f64, InputError> {
     let [exact, compact] = [exact, compact].map(|asset| {
         let mut asset = asset.clone();
-        asset.material.strength *= 1e6;
+        asset.parts_mut().material.strength *= 1e6;
         Body::new(Arc::new(asset), 1)
     });
     let (exact, compact) = (exact?, compact?);
     let mut largest = 0.0_f64;
     for k in 0..8 {
-        let (mesh, triangles) = (&exact.asset().fracture, &exact.asset().surface.triangles);
+        let (mesh, triangles) = (exact.asset().fracture(), &exact.asset().surface().triangles);
         let corners = triangles[k * triangles.len() / 8].map(|v| mesh.positions[v as usize]);
         let [a, b, c] = corners;
-        let striker = Striker {
-            contact_modulus: 2.3e11,
-            inverse_effective_mass: 1.0,
-            curvature_radius: 0.01,
-            restitution: 0.5,
-            ..Striker::rigid()
-        };
+        let striker = Striker::rigid()
+            .with_contact_modulus(2.3e11)
+            .with_effective_mass(1.0)
+            .with_curvature_radius(0.01)
+            .with_restitution(0.5);
         let normal = -(b - a).cross(c - a).normalize();
-        let impulse = (0.3 * exact.asset().mass.mass) as f32;
+        let impulse = (0.3 * exact.asset().mass().mass) as f32;
         let contact = Contact {
             impulse,
             ..Contact::strike((a + b + c) / 3.0, normal, 3.0, striker)

@@ -35,7 +35,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let wanted = |name: &&&str| asked.is_empty() || asked.iter().any(|a| a == **name);
     for name in SCENE_NAMES.iter().filter(wanted) {
         let scene = scene(name)?;
-        let bodies = bake(&scene, &mut |_| {})?;
+        let bodies = bake(&scene)?;
         report(&play(&scene, &bodies, &mut |_| {})?);
     }
     Ok(())

@@ -18,7 +18,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     for name in SCENE_NAMES.iter().filter(wanted) {
         let mut scene = scene(name)?;
         scene.duration = scene.duration.min(LONGEST);
-        let baked = bake(&scene, &mut |_| {})?;
+        let baked = bake(&scene)?;
         let run = play(&scene, &baked, &mut |_| {})?;
         let (mut again, mut count) = (Row::default(), 0);
         for record in &run.breaks {

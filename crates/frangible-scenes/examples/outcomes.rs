@@ -20,7 +20,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     for name in SCENE_NAMES.iter().filter(wanted) {
         let mut scene = scene(name)?;
         scene.duration = scene.duration.min(LONGEST);
-        let bodies = bake(&scene, &mut |_| {})?;
+        let bodies = bake(&scene)?;
         let run = play(&scene, &bodies, &mut |_| {})?;
         for body in 0..scene.bodies.len() {
             if let Some(record) = run.break_of(body) {

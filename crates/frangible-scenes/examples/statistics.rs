@@ -87,7 +87,7 @@ fn each(
     seeds: u64,
     mut row: impl FnMut(u64, Row),
 ) -> Result<[usize; 2], Box<dyn Error>> {
-    let bodies = bake(scene, &mut |_| {})?;
+    let bodies = bake(scene)?;
     let first = first_break(scene, &bodies, &mut |_| {})?.ok_or("nothing breaks")?;
     let number = scene.bodies.iter().position(|b| b.name == first.name);
     let spec = &scene.bodies[number.unwrap_or(0)];
@@ -117,7 +117,7 @@ fn each(
             },
         );
     }
-    Ok([asset.fracture.tets.len(), asset.modes.followed()])
+    Ok([asset.fracture().tets.len(), asset.modes().followed()])
 }
 
 /// A built-in scene, or that of a file.

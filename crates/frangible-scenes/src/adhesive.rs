@@ -85,8 +85,8 @@ pub(crate) fn glue(
 
 /// Mean area of a surface's triangles, m².
 fn triangle(asset: &Asset) -> f32 {
-    let positions = &asset.fracture.positions;
-    let triangles = &asset.surface.triangles;
+    let positions = &asset.fracture().positions;
+    let triangles = &asset.surface().triangles;
     let areas = triangles
         .iter()
         .map(|t| area(t.map(|v| positions[v as usize])).length());
@@ -106,8 +106,8 @@ fn patches([(one, asset), (two, other)]: [(&Placed<'_>, &Asset); 2], side: f32) 
     let (turn, back) = (one.spec.rotation, two.spec.rotation.inverse());
     let [low, high] = two.bounds;
     let mut squares: BTreeMap<[i32; 3], Patch> = BTreeMap::new();
-    for corners in &asset.surface.triangles {
-        let corners = corners.map(|v| asset.fracture.positions[v as usize]);
+    for corners in &asset.surface().triangles {
+        let corners = corners.map(|v| asset.fracture().positions[v as usize]);
         let middle = (corners[0] + corners[1] + corners[2]) / 3.0;
         let place = one.target.centre + turn * middle;
         if (low - place).max(place - high).max_element() > THICKEST {
@@ -141,9 +141,9 @@ fn patches([(one, asset), (two, other)]: [(&Placed<'_>, &Asset); 2], side: f32) 
 }
 
 fn surface(asset: &Asset) -> Surface {
-    let positions = asset.fracture.positions.iter();
+    let positions = asset.fracture().positions.iter();
     Surface {
         positions: positions.map(|p| DVec3::from(*p)).collect(),
-        triangles: asset.surface.triangles.clone(),
+        triangles: asset.surface().triangles.clone(),
     }
 }

@@ -27,12 +27,20 @@ pub struct BakedBody {
 ///
 /// # Errors
 /// An invalid quantity, file or shape.
-pub fn bake(
+pub fn bake(scene: &Scene) -> Result<Vec<BakedBody>, SceneError> {
+    bake_with(scene, |_| {})
+}
+
+/// Bakes the bodies of a scene like [`bake()`], and calls `progress` at every advance of a body.
+///
+/// # Errors
+/// The errors of [`bake()`].
+pub fn bake_with(
     scene: &Scene,
-    progress: &mut dyn FnMut(Progress),
+    mut progress: impl FnMut(Progress),
 ) -> Result<Vec<BakedBody>, SceneError> {
     let opened = open_sources(scene)?;
-    bake_opened(scene, opened, progress)
+    bake_opened(scene, opened, &mut progress)
 }
 
 /// Checks the scene and reads the sources of its bodies, each of which must be one body. All errors in these are found here, before any
@@ -142,7 +150,7 @@ fn check_painted(body: &BodySpec, opened: &Opened) -> Result<(), SceneError> {
     };
     let colors = match opened {
         Opened::Shape { render, .. } => render.as_ref().map_or(0, |r| r.colors.len()),
-        Opened::Asset(asset) => asset.render.as_ref().map_or(0, |r| r.colors.len()),
+        Opened::Asset(asset) => asset.render().map_or(0, |r| r.colors.len()),
     };
     if colors > 0 {
         return Ok(());
@@ -240,7 +248,8 @@ fn bake_body(
         cancel: cancel.clone(),
         ..frangible_bake::BakeSpec::new(&body.name, shape, body.material.clone())
     };
-    let (asset, report) = frangible_bake::bake(&spec, progress).map_err(|e| mendable(&spec, e))?;
+    let baked = frangible_bake::bake_with(&spec, progress);
+    let frangible_bake::Baked { asset, report } = baked.map_err(|e| mendable(&spec, e))?;
     Ok(BakedBody {
         asset: Arc::new(asset),
         report: Some(Arc::new(report)),

@@ -42,7 +42,7 @@ pub struct BodySpec {
     /// Weakness from the vertex colours of the mesh; overridden by [`BodySpec::weakness`]. The colours are part of the bake, the weakness is
     /// not.
     pub paint: Vec<Paint>,
-    /// Weibull modulus of the strength, see [`frangible::internals::Fields::weibull_modulus`]; 0: no scatter. `None`: the value of the material
+    /// Weibull modulus of the strength, see [`frangible::Fields::weibull_modulus`]; 0: no scatter. `None`: the value of the material
     /// preset ([`frangible::internals::Preset::weibull_modulus`]).
     pub weibull_modulus: Option<f64>,
     /// Volume of the test specimen with the strength of the material, m³; `None`: the value of the preset.

@@ -35,9 +35,9 @@ pub(crate) fn with_cracks(
     if surfaces.light.is_some() {
         return None;
     }
-    let centre = asset.mass.centre.as_vec3();
+    let centre = asset.mass().centre.as_vec3();
     let mut triangles = Vec::new();
-    for (corners, count) in state.new_faces(&asset.fracture) {
+    for (corners, count) in state.new_faces(asset.fracture()) {
         for k in 2..count {
             triangles.push([corners[0], corners[k - 1], corners[k]].map(|p| p - centre));
         }

@@ -155,7 +155,7 @@ impl FirstBreak {
             impulse += contact.whole_impulse();
             weight += contact.impulse;
         }
-        let positions = self.body.asset().fracture.positions.iter();
+        let positions = self.body.asset().fracture().positions.iter();
         let reach = positions.map(|p| p.length()).fold(0.0, f32::max);
         let surface = still.surfaces.len();
         still.surfaces.push(SurfaceMaterial {

@@ -2,7 +2,7 @@
 //!
 //! ```no_run
 //! let scene = frangible_scenes::scene("glass")?;
-//! let bodies = frangible_scenes::bake(&scene, &mut |_| {})?;
+//! let bodies = frangible_scenes::bake(&scene)?;
 //! let run = frangible_scenes::play(&scene, &bodies, &mut |_| {})?;
 //! println!("{} pieces", run.breaks.first().map_or(1, |b| b.masses.len()));
 //! # Ok::<(), frangible_scenes::SceneError>(())
@@ -52,7 +52,7 @@ mod touching;
 mod wave;
 
 pub use bake::{
-    BakedBody, bake, bake_opened, bake_until, open_scene, open_scene_from, open_sources,
+    BakedBody, bake, bake_opened, bake_until, bake_with, open_scene, open_scene_from, open_sources,
     open_sources_from,
 };
 pub use body::{BodySpec, Place};

@@ -250,7 +250,7 @@ impl LiveScene {
                 sounding: piece_sounding(
                     &self.world,
                     handle,
-                    &event.asset.material,
+                    event.asset.material(),
                     fragment.mass.mass,
                 ),
                 handle,

@@ -113,7 +113,7 @@ impl Builder {
 pub(crate) fn whole(node: &str, asset: &Asset, surfaces: &BodySurfaces) -> RecordedMesh {
     let name = surfaces.mesh_name(node);
     let mut builder = Builder::default();
-    if let Some(render) = &asset.render {
+    if let Some(render) = asset.render() {
         builder.mesh.more_uvs = vec![Vec::new(); render.more_uvs.len()];
         let mut triangles = Vec::with_capacity(render.triangles.len());
         for (triangle, normals) in render.triangles.iter().zip(render.corner_normals()) {
@@ -126,8 +126,8 @@ pub(crate) fn whole(node: &str, asset: &Asset, surfaces: &BodySurfaces) -> Recor
         let parts = by_material(&triangles, &render.material_of_triangle, surfaces);
         return builder.finish(name, parts);
     }
-    let (positions, outside) = (&asset.fracture.positions, &asset.surface.triangles);
-    let mut drawn = undrawn(positions, outside, &asset.surface.normals, Vec3::ZERO);
+    let (positions, outside) = (&asset.fracture().positions, &asset.surface().triangles);
+    let mut drawn = undrawn(positions, outside, &asset.surface().normals, Vec3::ZERO);
     if let Some(tolerance) = surfaces.light {
         drawn = lightened(&drawn, Vec3::ZERO, false, tolerance).0;
     }

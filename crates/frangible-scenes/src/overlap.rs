@@ -62,7 +62,7 @@ pub(crate) fn check_overlaps(
         for other in starts[i + 1..].iter().take_while(reached) {
             let overlap = overlap(one, other, &mut solids);
             let sizes = [one, other].map(|body| longest_side(&local_bounds(body.asset)));
-            let smaller = one.asset.mass.volume.min(other.asset.mass.volume);
+            let smaller = one.asset.mass().volume.min(other.asset.mass().volume);
             if overlap.depth > DEPTH * sizes[0].min(sizes[1]) || overlap.volume > SHARE * smaller {
                 return Err(SceneError::Overlap {
                     one: one.name.into(),
@@ -101,7 +101,7 @@ fn inside(inner: &Start<'_>, outer: &Start<'_>, solids: &mut Solids) -> Overlap 
     let [low, high] = local_bounds(outer.asset);
     let there = |p: Vec3| back * (inner.centre + inner.rotation * p - outer.centre);
     let near = |p: &Vec3| p.cmpgt(low).all() && p.cmplt(high).all();
-    let mesh = &inner.asset.fracture;
+    let mesh = inner.asset.fracture();
     let nodes = mesh.positions.iter().map(|&p| (there(p), 0.0));
     let middles = (0..mesh.tets.len()).map(|e| (there(mesh.centroid(e)), mesh.volume(e)));
     let places = nodes.filter(|(p, _)| near(p));
@@ -121,7 +121,7 @@ fn inside(inner: &Start<'_>, outer: &Start<'_>, solids: &mut Solids) -> Overlap 
                 .iter()
                 .map(|p| p.as_dvec3())
                 .collect(),
-            triangles: outer.asset.surface.triangles.clone(),
+            triangles: outer.asset.surface().triangles.clone(),
         };
         MeshSolid::new(&surface).ok()
     });

@@ -157,7 +157,7 @@ impl Recorder {
         self.break_frame.get_or_insert(self.recording.frame_count);
         let first = self.recording.nodes.len();
         if generation == 0 && surfaces.light.is_some() {
-            let drawn = event.asset.render.as_ref();
+            let drawn = event.asset.render();
             self.simplified.wanted += WANTED_OF_DRAWN * drawn.map_or(0, |r| r.triangles.len());
         }
         for (i, (fragment, &body)) in event
@@ -175,7 +175,7 @@ impl Recorder {
                 ("volume_m3".into(), fragment.mass.volume),
             ];
             let mass = fragment.mass.mass;
-            let sounding = piece_sounding(world, body, &event.asset.material, mass);
+            let sounding = piece_sounding(world, body, event.asset.material(), mass);
             self.track(name, mesh, body, extras, Role::Piece, sounding);
         }
         let pieces = first..self.recording.nodes.len();

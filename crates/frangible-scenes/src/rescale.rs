@@ -112,11 +112,11 @@ pub(crate) fn rescaled(asset: Asset, rescale: &Rescale, path: &Path) -> Result<A
     };
     let mut asset = asset;
     if let Some(edit) = &rescale.material {
-        let material = edit.apply(&asset.material)?;
+        let material = edit.apply(asset.material())?;
         asset = with_material(&asset, &material).map_err(wrong)?;
     }
     if let Some(size) = rescale.size {
-        let points = &asset.fracture.positions;
+        let points = &asset.fracture().positions;
         let low = points.iter().fold(Vec3::INFINITY, |l, &p| l.min(p));
         let high = points.iter().fold(Vec3::NEG_INFINITY, |h, &p| h.max(p));
         let longest = f64::from((high - low).max_element());

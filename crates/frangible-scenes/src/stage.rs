@@ -5,7 +5,7 @@ use std::sync::Arc;
 use frangible::glam::{Quat, Vec3};
 use frangible::{Asset, Body, Breakable, Material};
 use frangible_bake::weakness;
-use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
+use frangible_rapier::rapier3d::dynamics::{RigidBodyBuilder, RigidBodyHandle};
 use frangible_rapier::rapier3d::geometry::SharedShape;
 use frangible_rapier::rapier3d::math::{Pose, Rotation, Vector};
 use frangible_rapier::{BreakableWorld, ColliderDetail, SurfaceProperties, WorldConfig};
@@ -139,7 +139,7 @@ pub(crate) fn set_up_kinds<'a>(
     #[cfg(feature = "bake")]
     if scene.pieces.generations > 0 {
         let model = frangible_bake::pieces::Pieces::new(scene.pieces.method);
-        world.set_piece_model(Some(Arc::new(model)));
+        world = world.with_piece_model(model);
     }
     let numbers = 0..scene.projectiles.len();
     let mut stage = Stage {
@@ -245,19 +245,28 @@ fn put<'a>(
     let q = spec.rotation;
     let pose = Pose::from_parts(vector(centre), Rotation::from_xyzw(q.x, q.y, q.z, q.w));
     let sounding = Sounding::Modes(body.clone());
-    let handle = world.insert_breakable(body, pose, vector(spec.velocity), vector(spec.spin))?;
-    let mut look = appearance(&asset.material.name);
+    let handle = world.insert(
+        body,
+        RigidBodyBuilder::dynamic()
+            .pose(pose)
+            .linvel(vector(spec.velocity))
+            .angvel(vector(spec.spin)),
+    )?;
+    let mut look = appearance(&asset.material().name);
     let clear = look.outside.transmission > 0.0;
-    if let Some(render) = &asset.render
+    if let Some(render) = asset.render()
         && !render.colors.is_empty()
     {
         look.outside = painted_surface(&look.outside);
     }
     let [outer, inner, crack, crack_line] =
         recorder.surfaces([look.outside, look.crack_face, look.crack, look.crack_line]);
-    let images = asset.render.iter().flat_map(|render| &render.images);
+    let images = asset.render().into_iter().flat_map(|render| &render.images);
     let images: Vec<u32> = images.map(|image| recorder.image(image)).collect();
-    let authored = asset.render.iter().flat_map(|render| &render.materials);
+    let authored = asset
+        .render()
+        .into_iter()
+        .flat_map(|render| &render.materials);
     let surfaces = BodySurfaces {
         outer,
         inner,
@@ -267,16 +276,16 @@ fn put<'a>(
         authored: authored
             .map(|look| recorder.surface(authored_surface(look, &images)))
             .collect(),
-        srgb_colors: asset.render.as_ref().is_some_and(|r| r.srgb_colors),
+        srgb_colors: asset.render().is_some_and(|r| r.srgb_colors),
         light: (drawing == Drawing::Light).then(|| TOLERANCE * longest_side(asset)),
         names: [
             spec.name.clone(),
-            asset.render.as_ref().map_or("", |r| &r.name).to_owned(),
+            asset.render().map_or("", |r| &r.name).to_owned(),
         ],
     };
     let extras = vec![
-        ("mass_kg".into(), asset.mass.mass),
-        ("volume_m3".into(), asset.mass.volume),
+        ("mass_kg".into(), asset.mass().mass),
+        ("volume_m3".into(), asset.mass().volume),
     ];
     let target = Target {
         centre,
@@ -285,7 +294,7 @@ fn put<'a>(
     let mesh = whole(&spec.name, asset, &surfaces);
     let role = Role::Body;
     recorder.track(spec.name.clone(), mesh, handle, extras, role, sounding);
-    let corners = asset.fracture.positions.iter().map(|&p| centre + q * p);
+    let corners = asset.fracture().positions.iter().map(|&p| centre + q * p);
     let (low, high) = corners.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), p| {
         (low.min(p), high.max(p))
     });
@@ -301,13 +310,13 @@ fn put<'a>(
 /// Returns true if a body's hull has hardly more volume than the body.
 fn is_convex(asset: &Asset) -> bool {
     let points: Vec<Vector> = asset
-        .fracture
+        .fracture()
         .positions
         .iter()
         .map(|&p| vector(p))
         .collect();
     let hull = SharedShape::convex_hull(&points).map(|hull| hull.mass_properties(1.0).mass());
-    hull.is_some_and(|volume| f64::from(volume) <= 1.01 * asset.mass.volume)
+    hull.is_some_and(|volume| f64::from(volume) <= 1.01 * asset.mass().volume)
 }
 
 /// Makes the kind of bodies of this description and asset, with the weakness that the description gives them.
@@ -316,7 +325,7 @@ fn is_convex(asset: &Asset) -> bool {
 /// An invalid weakness.
 pub fn breakable(spec: &BodySpec, asset: &Arc<Asset>) -> Result<Breakable, SceneError> {
     let painted = weakness::from_paint(asset, &spec.paint)?;
-    let fields = weakness::patched(painted, asset, &spec.weakness)?.scattered_as(&asset.material);
+    let fields = weakness::patched(painted, asset, &spec.weakness)?.scattered_as(asset.material());
     let mut fields = match spec.weibull_modulus {
         Some(modulus) => fields.with_weibull_modulus(modulus),
         None => fields,
@@ -347,7 +356,7 @@ fn seed_of(scene: u64, i: usize) -> u64 {
 /// Radius of the sphere about the centre of mass that holds the body, m.
 fn farthest_point(asset: &Asset) -> f32 {
     asset
-        .fracture
+        .fracture()
         .positions
         .iter()
         .map(|p| p.length())
@@ -357,7 +366,7 @@ fn farthest_point(asset: &Asset) -> f32 {
 /// Longest side of the body's box, m.
 fn longest_side(asset: &Asset) -> f32 {
     let nothing = [Vec3::INFINITY, Vec3::NEG_INFINITY];
-    let places = asset.fracture.positions.iter();
+    let places = asset.fracture().positions.iter();
     let [low, high] = places.fold(nothing, |[low, high], &p| [low.min(p), high.max(p)]);
     (high - low).max_element()
 }
@@ -365,7 +374,7 @@ fn longest_side(asset: &Asset) -> f32 {
 /// Height of the body's lowest point below its centre of mass (negative), m.
 fn lowest_point(asset: &Asset, rotation: Quat) -> f32 {
     asset
-        .fracture
+        .fracture()
         .positions
         .iter()
         .map(|&p| (rotation * p).y)

@@ -7,7 +7,7 @@ use frangible_rapier::BreakableWorld;
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_rapier::rapier3d::geometry::{Collider, ContactPair};
 use frangible_recording::{RecordedSlide, RecordedTouch};
-use frangible_sound::{EngineStep, Motion, Push, Touching};
+use frangible_sound::{EngineMotion, EngineStep, Push, Touching};
 
 /// Finds touches, slides and rolling, step by step.
 #[derive(Default)]
@@ -91,7 +91,7 @@ fn push(
 }
 
 /// Motion of each dynamic body.
-fn motions(world: &BreakableWorld) -> BTreeMap<u64, Motion> {
+fn motions(world: &BreakableWorld) -> BTreeMap<u64, EngineMotion> {
     let bodies = world.physics.bodies.iter().filter(|(_, b)| b.is_dynamic());
     let motion = bodies.map(|(handle, body)| {
         let motion = [body.linvel(), body.angvel(), body.center_of_mass()];

@@ -65,7 +65,7 @@ impl FirstBreak {
         let elements = || trace.cracks.iter().flatten().filter(|e| e.time.is_finite());
         let last = elements().map(|e| e.time).fold(0.0, f64::max);
         let length = (AFTERWARDS * last).max(report.contact_duration);
-        let place = |v: u32| self.rotation * asset.fracture.positions[v as usize];
+        let place = |v: u32| self.rotation * asset.fracture().positions[v as usize];
         let surface = Surface::of(asset);
         let mut stress = ShownStress::new(&self.body, &self.config, &trace.pressed, &trace.motion);
         let mut wave = Wave {
@@ -106,13 +106,13 @@ pub fn surface_cuts<'a>(
     let behind = triangles_behind(asset);
     let mut cuts = Vec::new();
     for element in elements {
-        let nodes = asset.fracture.tets[element.tet as usize];
+        let nodes = asset.fracture().tets[element.tet as usize];
         let value = |v: u32| {
             let at = nodes.iter().position(|&n| n == v)?;
             Some(element.values[at])
         };
         for &triangle in &behind[element.tet as usize] {
-            let corners = asset.surface.triangles[triangle as usize];
+            let corners = asset.surface().triangles[triangle as usize];
             let [Some(a), Some(b), Some(c)] = corners.map(value) else {
                 continue;
             };
@@ -149,8 +149,8 @@ impl Wave {
 
 /// The triangles of the surface in front of each tetrahedron.
 fn triangles_behind(asset: &Asset) -> Vec<Vec<u32>> {
-    let mut behind = vec![Vec::new(); asset.fracture.tets.len()];
-    for (triangle, &tet) in (0..).zip(&asset.surface.tets) {
+    let mut behind = vec![Vec::new(); asset.fracture().tets.len()];
+    for (triangle, &tet) in (0..).zip(&asset.surface().tets) {
         behind[tet as usize].push(triangle);
     }
     behind
@@ -179,9 +179,9 @@ struct Surface {
 
 impl Surface {
     fn of(asset: &Asset) -> Self {
-        let mut number = vec![u32::MAX; asset.fracture.positions.len()];
+        let mut number = vec![u32::MAX; asset.fracture().positions.len()];
         let mut nodes = Vec::new();
-        let triangles = (asset.surface.triangles.iter())
+        let triangles = (asset.surface().triangles.iter())
             .map(|triangle| {
                 triangle.map(|v| {
                     if number[v as usize] == u32::MAX {

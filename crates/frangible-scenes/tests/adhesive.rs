@@ -86,7 +86,7 @@ fn hung(gap: f32, patch: Option<f64>) -> Scene {
 
 #[test]
 fn bodies_that_touch_or_overlap_by_rounding_are_bonded() {
-    let baked = bake(&hung(0.0, None), &mut |_| {}).unwrap();
+    let baked = bake(&hung(0.0, None)).unwrap();
     let fall = |scene: &Scene| {
         let recording = play(scene, &baked, &mut |_| {}).unwrap().recording;
         let last = recording.frame_count - 1;
@@ -113,7 +113,7 @@ fn bodies_that_touch_or_overlap_by_rounding_are_bonded() {
 #[test]
 fn an_adhesive_that_bonds_nothing_is_refused() {
     let scene = hung(0.01, Some(0.02));
-    let baked = bake(&scene, &mut |_| {}).unwrap();
+    let baked = bake(&scene).unwrap();
     let refused = play(&scene, &baked, &mut |_| {}).err();
     let message = refused.expect("10 mm are no layer").to_string();
     assert!(message.contains("bonds nothing"), "{message}");
@@ -130,7 +130,7 @@ fn the_scenes_of_glued_sheets_break_and_keep_most_of_their_pieces() {
     ] {
         let mut scene = scene(name).unwrap();
         scene.duration = scene.duration.min(seconds);
-        let baked = bake(&scene, &mut |_| {}).unwrap();
+        let baked = bake(&scene).unwrap();
         let run = play(&scene, &baked, &mut |_| {}).unwrap();
         let pieces = run.breaks.iter().map(|b| b.masses.len()).sum::<usize>();
         println!("{name}: {pieces} pieces, {:.2} stays", stays(&run));

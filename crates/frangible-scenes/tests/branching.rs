@@ -8,8 +8,8 @@ use frangible::{Asset, Breakable, FractureConfig, ImpactReport, impact};
 
 /// A blow in the middle of a pane whose strength scatters as glass does.
 fn struck(asset: &Arc<Asset>, speed: f64, seed: u64, config: &FractureConfig) -> ImpactReport {
-    let kind = Breakable::new(Arc::clone(asset)).unwrap();
-    let fields = Fields::of_material(&asset.material);
+    let kind = Breakable::uniform(Arc::clone(asset)).unwrap();
+    let fields = Fields::of_material(asset.material());
     let body = kind.with_fields(fields).unwrap().body(seed);
     let outcome = impact(&body, &[pane_hit(0.0, 0.0, speed)], config).unwrap();
     outcome.report().clone()
@@ -30,8 +30,8 @@ fn tougher_glass_forks_less() {
     let config = FractureConfig::default();
     let forks = [1.0, 4.0, 16.0].map(|factor| {
         let mut asset = Asset::clone(pane());
-        asset.material.fracture_energy *= factor;
-        asset.material.energy_depth *= factor;
+        asset.parts_mut().material.fracture_energy *= factor;
+        asset.parts_mut().material.energy_depth *= factor;
         let asset = Arc::new(asset);
         mean(6, |seed| struck(&asset, 12.0, seed, &config).forks as f64)
     });
@@ -45,7 +45,7 @@ fn a_branching_constant_stands_for_as_many_times_the_toughness() {
     let config = FractureConfig::default();
     let [glass, twice, never] = [1.0, 2.0, f64::INFINITY].map(|factor| {
         let mut asset = Asset::clone(pane());
-        asset.material.branching_constant *= factor;
+        asset.parts_mut().material.branching_constant *= factor;
         let asset = Arc::new(asset);
         mean(6, |seed| struck(&asset, 12.0, seed, &config).forks as f64)
     });

@@ -13,7 +13,7 @@ fn window_hit_at(speed: f64) -> Run {
     scene.fracture.crumb_share = 0.9;
     // A slow ball comes in an arc from below.
     scene.floor = None;
-    let baked = bake(&scene, &mut |_| {}).unwrap();
+    let baked = bake(&scene).unwrap();
     play(&scene, &baked, &mut |_| {}).unwrap()
 }
 

@@ -21,10 +21,10 @@ impl Numbers {
 
     /// A blow on a random place of the surface, from outside, up to 20 m/s, most of them soft.
     fn blow(&mut self, asset: &Asset) -> Contact {
-        let triangle = (self.next() * asset.surface.triangles.len() as f64) as usize;
+        let triangle = (self.next() * asset.surface().triangles.len() as f64) as usize;
         let corners =
-            asset.surface.triangles[triangle].map(|v| asset.fracture.positions[v as usize]);
-        let inward = -asset.surface.normals[triangle][0];
+            asset.surface().triangles[triangle].map(|v| asset.fracture().positions[v as usize]);
+        let inward = -asset.surface().normals[triangle][0];
         let tilt = Vec3::from_array(std::array::from_fn(|_| self.next() as f32 - 0.5));
         let speed = 20.0 * self.next().powi(6);
         let striker = if self.next() < 0.5 {
@@ -83,7 +83,7 @@ fn culling_changes_no_bit_of_what_breaks() {
     let mut looked = [0; LEVELS.len()];
     let mut ratios = [const { Vec::new() }; LEVELS.len()];
     for (name, asset) in [("glass", glass()), ("pane", pane()), ("block", block())] {
-        let kind = Breakable::new(Arc::clone(asset)).unwrap();
+        let kind = Breakable::uniform(Arc::clone(asset)).unwrap();
         let mut broke = 0;
         for k in 0..10 {
             let body = kind.body(k);
@@ -151,7 +151,7 @@ fn the_hardest_blow_that_is_refused_free_of_time_leaves_the_strength_unreached()
         without
     };
     for (name, asset) in [("glass", glass()), ("pane", pane()), ("block", block())] {
-        let kind = Breakable::new(Arc::clone(asset)).unwrap();
+        let kind = Breakable::uniform(Arc::clone(asset)).unwrap();
         for seed in 0..4 {
             let body = kind.body(seed);
             let some = numbers.blow(asset);
@@ -201,12 +201,14 @@ fn culling_changes_no_bit_where_the_strength_varies() {
             toughness: 1.0 + 0.8 * (70.0 * p.y).cos(),
             weak_points: 1.0 + (50.0 * p.z).sin(),
             ..Factors::ONE
-        });
+        })
+        .with_weibull_modulus(0.0);
         let line = Zone::Tube {
             line: vec![Vec3::new(0.02, -0.2, 0.0), Vec3::new(0.04, 0.2, 0.0)],
             radius: 0.01,
         };
-        let scored = weakness::from_patches(asset, &[Patch::of_strength(line, 0.3)]).unwrap();
+        let scored =
+            weakness::patched(Fields::default(), asset, &[Patch::of_strength(line, 0.3)]).unwrap();
         for (k, fields) in [
             waves.clone(),
             waves.with_weibull_modulus(6.0),
@@ -216,7 +218,7 @@ fn culling_changes_no_bit_where_the_strength_varies() {
         .into_iter()
         .enumerate()
         {
-            let kind = Breakable::new(Arc::clone(asset)).unwrap();
+            let kind = Breakable::uniform(Arc::clone(asset)).unwrap();
             let kind = kind.with_fields(fields).unwrap();
             for blow in 0..2 {
                 let body = kind.body(blow);

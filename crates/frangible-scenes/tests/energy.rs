@@ -18,7 +18,7 @@ fn breaks_make_no_energy() {
     let mut broke = 0;
     for name in ["pane", "plate", "brick", "chocolate", "shards"] {
         let scene = cheap(name);
-        let baked = bake(&scene, &mut |_| {}).unwrap();
+        let baked = bake(&scene).unwrap();
         let run = play(&scene, &baked, &mut |_| {}).unwrap();
         for b in &run.breaks {
             let r = &b.report;
@@ -49,7 +49,7 @@ fn breaks_make_no_energy() {
 #[test]
 fn energy_that_is_made_is_named() {
     let scene = cheap("pane");
-    let baked = bake(&scene, &mut |_| {}).unwrap();
+    let baked = bake(&scene).unwrap();
     let run = play(&scene, &baked, &mut |_| {}).unwrap();
     let sound = run.breaks.first().expect("it breaks").clone();
     let named = |change: fn(&mut frangible_scenes::BreakRecord), word: &str| {

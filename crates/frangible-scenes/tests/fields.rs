@@ -12,7 +12,7 @@ use frangible_bake::weakness::{self, Patch, Zone};
 use frangible_scenes::{bake, scene};
 
 fn kind(asset: &Arc<Asset>, fields: Fields) -> Breakable {
-    Breakable::new(Arc::clone(asset))
+    Breakable::uniform(Arc::clone(asset))
         .unwrap()
         .with_fields(fields)
         .unwrap()
@@ -47,12 +47,18 @@ fn the_same_factor_everywhere_is_another_material() {
         ..Factors::ONE
     };
     let mut other = Asset::clone(pane());
-    other.material.strength *= 0.5;
-    other.material.fracture_energy *= 0.25;
-    other.material.weak_point_density *= 2.0;
+    other.parts_mut().material.strength *= 0.5;
+    other.parts_mut().material.fracture_energy *= 0.25;
+    other.parts_mut().material.weak_point_density *= 2.0;
     let other = kind(&Arc::new(other), Fields::default());
-    let painted = kind(pane(), Fields::from_function(pane(), |_| factors));
-    let ones = kind(pane(), Fields::from_function(pane(), |_| Factors::ONE));
+    let painted = kind(
+        pane(),
+        Fields::from_function(pane(), |_| factors).with_weibull_modulus(0.0),
+    );
+    let ones = kind(
+        pane(),
+        Fields::from_function(pane(), |_| Factors::ONE).with_weibull_modulus(0.0),
+    );
     let plain = kind(pane(), Fields::default());
     for (seed, speed) in [(1, 0.3), (2, 2.0), (3, 6.0), (4, 12.0)] {
         let hit = [pane_hit(0.01, 0.02, speed)];
@@ -77,11 +83,11 @@ fn no_crack_starts_where_there_are_no_weak_points() {
     };
     // A crack that leaves another one at a fork needs no weak point.
     let mut unforked = Asset::clone(pane());
-    unforked.material.branching_constant = f64::INFINITY;
+    unforked.parts_mut().material.branching_constant = f64::INFINITY;
     let unforked = Arc::new(unforked);
     let kind = kind(
         &unforked,
-        weakness::from_patches(&unforked, &[patch]).unwrap(),
+        weakness::patched(Fields::default(), &unforked, &[patch]).unwrap(),
     );
     let config = FractureConfig::default();
     for seed in 1..=4 {
@@ -90,7 +96,7 @@ fn no_crack_starts_where_there_are_no_weak_points() {
             impact_traced(&body, &[pane_hit(-0.03, 0.0, 12.0)], &config).unwrap();
         assert!(outcome.report().cracks > 0);
         for crack in &trace.cracks {
-            let start = pane().fracture.centroid(crack[0].tet as usize);
+            let start = pane().fracture().centroid(crack[0].tet as usize);
             assert!(start.x > 0.0, "{start}");
         }
     }
@@ -99,17 +105,17 @@ fn no_crack_starts_where_there_are_no_weak_points() {
 #[test]
 fn a_scored_pane_breaks_from_its_groove_at_the_strength_of_a_flaw_as_deep() {
     let asset = pane();
-    let edge = asset.fracture.mean_edge();
+    let edge = asset.fracture().mean_edge();
     let line = [-1.0, 1.0].map(|y| Vec3::new(0.04, y, 0.0)).to_vec();
     let zone = Zone::Tube { line, radius: edge };
     let scored = |depth| {
         let patch = Patch::of_groove(zone.clone(), depth);
-        let fields = weakness::patched(Fields::of_material(&asset.material), asset, &[patch]);
+        let fields = weakness::patched(Fields::of_material(asset.material()), asset, &[patch]);
         kind(asset, fields.unwrap())
     };
-    let plain = kind(asset, Fields::of_material(&asset.material));
+    let plain = kind(asset, Fields::of_material(asset.material()));
     let config = FractureConfig::default();
-    let material = &asset.material;
+    let material = asset.material();
     let toughness = (material.fracture_energy * material.contact_modulus()).sqrt();
     let mut from_groove = 0;
     for seed in 1..=8 {
@@ -129,7 +135,7 @@ fn a_scored_pane_breaks_from_its_groove_at_the_strength_of_a_flaw_as_deep() {
         );
         from_groove +=
             u32::from(trace.cracks.first().is_some_and(|crack| {
-                zone.contains(asset.fracture.centroid(crack[0].tet as usize))
+                zone.contains(asset.fracture().centroid(crack[0].tet as usize))
             }));
         // An edge crack of 1 mm in bending, a quarter of the way through: F = 1.08 (Brown and Srawley).
         let flaw = toughness / (1.08 * (std::f64::consts::PI * 1e-3).sqrt());
@@ -155,12 +161,12 @@ fn scatter_is_of_the_seed_alone_and_fades_with_the_modulus() {
     assert_eq!(bits(&run(&five, 3)), bits(&run(&scattered(5.0), 3)));
     let weakest = |modulus: f64| {
         let kind = scattered(modulus);
-        let strength = glass().material.strength;
+        let strength = glass().material().strength;
         mean(20, |seed| run(&kind, seed).report().strength / strength)
     };
     // Of n weak points the weakest has the mean strength n^(-1/m) Γ(1 + 1/m), times the typical one's.
     let n = mean(20, |seed| five.body(seed).weak_tets().len() as f64);
-    let specimen = glass().material.weak_point_density * Preset::SPECIMEN;
+    let specimen = glass().material().weak_point_density * Preset::SPECIMEN;
     for (modulus, gamma) in [(5.0, 0.9182), (20.0, 0.9735), (1e6, 1.0)] {
         let law = (specimen / n).powf(1.0 / modulus) * gamma;
         let found = weakest(modulus);
@@ -176,9 +182,9 @@ fn scatter_is_of_the_seed_alone_and_fades_with_the_modulus() {
 #[test]
 fn paint_on_a_surface_reaches_the_inside_from_the_nearest_place() {
     let asset = block();
-    let mesh = &asset.fracture;
+    let mesh = asset.fracture();
     let paint = |p: Vec3| Factors::of_strength(1.0 + p.x);
-    let fields = weakness::from_vertices(asset, &mesh.positions, &asset.surface.triangles, |v| {
+    let fields = weakness::from_vertices(asset, &mesh.positions, &asset.surface().triangles, |v| {
         paint(mesh.positions[v])
     })
     .unwrap();
@@ -204,7 +210,7 @@ fn paint_on_a_surface_reaches_the_inside_from_the_nearest_place() {
 #[test]
 fn fields_that_cannot_be_used_are_refused() {
     let refused = |fields: Fields, word: &str| {
-        let kind = Breakable::new(Arc::clone(pane())).unwrap();
+        let kind = Breakable::uniform(Arc::clone(pane())).unwrap();
         let message = kind.with_fields(fields).unwrap_err().to_string();
         assert!(message.contains(word), "{message}");
     };
@@ -247,7 +253,10 @@ fn scored(strength: f32) -> Breakable {
         Vec3::new(0.04 + HALF_WIDTH, 1.0, 1.0),
     ]);
     let patches = [Patch::of_strength(strip, strength)];
-    kind(pane(), weakness::from_patches(pane(), &patches).unwrap())
+    kind(
+        pane(),
+        weakness::patched(Fields::default(), pane(), &patches).unwrap(),
+    )
 }
 
 /// Share of the cut tetrahedra that lie in the strip.
@@ -258,7 +267,7 @@ fn share_along_the_score(body: &Body, hit: Contact) -> f64 {
         .cracks
         .iter()
         .flatten()
-        .map(|e| (pane().fracture.centroid(e.tet as usize).x - 0.04).abs())
+        .map(|e| (pane().fracture().centroid(e.tet as usize).x - 0.04).abs())
         .collect();
     let inside = cut.iter().filter(|d| **d <= HALF_WIDTH).count();
     inside as f64 / cut.len().max(1) as f64
@@ -284,9 +293,12 @@ fn a_scored_pane_breaks_along_the_score() {
 fn the_chocolate_breaks_between_its_squares() {
     let mut scene = scene("chocolate").unwrap();
     scene.bodies[0].modes = 40;
-    let asset = bake(&scene, &mut |_| {}).unwrap()[0].asset.clone();
+    let asset = bake(&scene).unwrap()[0].asset.clone();
     let grooves = &scene.bodies[0].weakness;
-    let scored = kind(&asset, weakness::from_patches(&asset, grooves).unwrap());
+    let scored = kind(
+        &asset,
+        weakness::patched(Fields::default(), &asset, grooves).unwrap(),
+    );
     let plain = kind(&asset, Fields::default());
     let config = FractureConfig::default();
     // A blow at a corner breaks the scored bar more easily.
@@ -318,7 +330,7 @@ fn the_chocolate_breaks_between_its_squares() {
                 impact_traced(&kind.body(seed), std::slice::from_ref(&hit), &config).unwrap();
             for crack in &trace.cracks {
                 for (i, cut) in crack.iter().enumerate() {
-                    let p = asset.fracture.centroid(cut.tet as usize);
+                    let p = asset.fracture().centroid(cut.tet as usize);
                     let inside = usize::from(grooves.iter().any(|g| g.zone.contains(p)));
                     cuts[inside] += 1;
                     starts[inside] += usize::from(i == 0);

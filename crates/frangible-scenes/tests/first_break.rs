@@ -8,7 +8,7 @@ fn the_first_break_is_that_of_the_scene_when_it_is_played() {
     let mut scene = scene("vase").unwrap();
     scene.bodies[0].modes = 40;
     scene.bodies[0].resolution = Some(8000);
-    let baked = bake(&scene, &mut |_| {}).unwrap();
+    let baked = bake(&scene).unwrap();
     let played = play(&scene, &baked, &mut |_| {}).unwrap();
     let played = played.breaks.first().expect("the vase breaks");
     let first = first_break(&scene, &baked, &mut |_| {}).unwrap().unwrap();

@@ -115,7 +115,7 @@ fn badly_framed(mut scene: Scene, modes: usize) -> Vec<String> {
         // A hammer may strike a body of that name.
         body.name = format!("body {}", body.name);
     }
-    let baked = bake(&scene, &mut |_| {}).unwrap();
+    let baked = bake(&scene).unwrap();
     let recording = play(&scene, &baked, &mut |_| {}).unwrap().recording;
     let moments = recording.labelled_moments().map(|(frame, label)| {
         let view = recording.view_of(frame);
@@ -194,7 +194,7 @@ fn a_wall_ends_with_what_stands_around_its_hole() {
     for body in &mut scene.bodies {
         body.modes = 20;
     }
-    let baked = bake(&scene, &mut |_| {}).unwrap();
+    let baked = bake(&scene).unwrap();
     let recording = play(&scene, &baked, &mut |_| {}).unwrap().recording;
     let (end, _) = recording.labelled_moments().into_iter().last().unwrap();
     let share = shown(&recording, end, &recording.view_of(end), "brick").cover;

@@ -9,7 +9,7 @@ fn a_game_sees_the_same_in_every_run() {
     for body in &mut plate.bodies {
         (body.resolution, body.modes) = (Some(6000), 30);
     }
-    let baked = bake(&plate, &mut |_| {}).expect("a bake");
+    let baked = bake(&plate).expect("a bake");
     let run = || play_as_game(&plate, &baked, GamePlan::default(), &mut |_| {}).expect("a run");
     let (first, second) = (run(), run());
     assert_eq!(first.breaks, 1);

@@ -34,8 +34,8 @@ fn areas(asset: &Asset, grooves: &[Patch], trace: &CrackTrace) -> [f32; 2] {
     let mut sums = [0.0; 2];
     for cut in trace.cracks.iter().flatten() {
         let tet = cut.tet as usize;
-        let area = crossing_area(asset.fracture.corners(tet), cut.values);
-        let p = asset.fracture.centroid(tet);
+        let area = crossing_area(asset.fracture().corners(tet), cut.values);
+        let p = asset.fracture().centroid(tet);
         let inside = grooves.iter().any(|g| g.zone.contains(p));
         sums[0] += if inside { area } else { 0.0 };
         sums[1] += area;
@@ -44,7 +44,7 @@ fn areas(asset: &Asset, grooves: &[Patch], trace: &CrackTrace) -> [f32; 2] {
 }
 
 fn share(asset: &Arc<Asset>, fields: Fields, grooves: &[Patch], hit: Contact) -> f32 {
-    let kind = Breakable::new(Arc::clone(asset)).unwrap();
+    let kind = Breakable::uniform(Arc::clone(asset)).unwrap();
     let kind = kind.with_fields(fields).unwrap();
     let config = FractureConfig::default();
     let mut sums = [0.0; 2];
@@ -67,19 +67,19 @@ fn share(asset: &Arc<Asset>, fields: Fields, grooves: &[Patch], hit: Contact) ->
 fn a_scored_bar_breaks_along_its_grooves() {
     let mut scene = scene("chocolate").unwrap();
     scene.bodies[0].modes = 40;
-    let asset = bake(&scene, &mut |_| {}).unwrap()[0].asset.clone();
+    let asset = bake(&scene).unwrap()[0].asset.clone();
     let grooves = &scene.bodies[0].weakness;
     let inside = |e: usize| {
-        let p = asset.fracture.centroid(e);
+        let p = asset.fracture().centroid(e);
         grooves.iter().any(|g| g.zone.contains(p))
     };
-    let volume = |e: usize| asset.fracture.volume(e);
-    let all = 0..asset.fracture.tets.len();
+    let volume = |e: usize| asset.fracture().volume(e);
+    let all = 0..asset.fracture().tets.len();
     let of_volume =
         all.clone().filter(|&e| inside(e)).map(volume).sum::<f64>() / all.map(volume).sum::<f64>();
     println!(
         "edge {} m, {of_volume:.3} of the volume in grooves",
-        asset.fracture.mean_edge()
+        asset.fracture().mean_edge()
     );
     let corner = Vec3::new(0.079, 0.039, 0.0);
     let middle = Vec3::new(0.003, 0.004, 0.0045);
@@ -97,7 +97,7 @@ fn a_scored_bar_breaks_along_its_grooves() {
             blow(&asset, middle, Vec3::NEG_Z, 4.0, steel_ball(0.05)),
         ),
     ] {
-        let scored = weakness::from_patches(&asset, grooves).unwrap();
+        let scored = weakness::patched(Fields::default(), &asset, grooves).unwrap();
         let with = share(&asset, scored, grooves, hit.clone());
         let without = share(&asset, Fields::default(), grooves, hit);
         println!("{what}: {with:.3} of the area in grooves, {without:.3} without scores");

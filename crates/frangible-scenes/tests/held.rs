@@ -8,7 +8,7 @@ fn coarse(name: &str, seed: u64) -> Run {
     scene.seed = seed;
     scene.bodies[0].modes = 12;
     scene.bodies[0].resolution = Some(3000);
-    let baked = bake(&scene, &mut |_| {}).unwrap();
+    let baked = bake(&scene).unwrap();
     assert!(baked[0].asset.is_supported());
     play(&scene, &baked, &mut |_| {}).unwrap()
 }

@@ -27,7 +27,7 @@ fn a_weak_kind_breaks_as_a_described_weakness_does() {
         radius: 1.0,
     };
     weak.bodies[0].weakness = vec![Patch::of_strength(everywhere, 0.3)];
-    let baked: Vec<BakedBody> = bake(&plain, &mut |_| {}).unwrap();
+    let baked: Vec<BakedBody> = bake(&plain).unwrap();
     let kinds = [breakable(&weak.bodies[0], &baked[0].asset).unwrap()];
     let described = first_break(LiveScene::new(&weak, &baked).unwrap());
     let given = first_break(LiveScene::of_kinds(&plain, &kinds).unwrap());

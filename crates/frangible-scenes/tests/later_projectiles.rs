@@ -16,7 +16,7 @@ fn five_blows() -> Scene {
 #[test]
 fn hammers_come_strike_and_leave_as_when_the_scene_is_played() {
     let scene = five_blows();
-    let baked = bake(&scene, &mut |_| {}).unwrap();
+    let baked = bake(&scene).unwrap();
     let run = play(&scene, &baked, &mut |_| {}).unwrap();
     let mut live = LiveScene::new(&scene, &baked).unwrap();
     // First and last time at which each hammer is there.
@@ -65,7 +65,7 @@ fn hammers_come_strike_and_leave_as_when_the_scene_is_played() {
 #[test]
 fn what_was_not_thrown_yet_when_the_scene_was_saved_is_thrown_again_after_it_is_restored() {
     let scene = five_blows();
-    let baked = bake(&scene, &mut |_| {}).unwrap();
+    let baked = bake(&scene).unwrap();
     let mut live = LiveScene::new(&scene, &baked).unwrap();
     while live.time() < 0.3 {
         live.step().unwrap();
@@ -104,7 +104,7 @@ fn what_flies_slowly_towards_a_body_at_rest_is_seen_to_arrive() {
         ..ball.clone()
     };
     scene.projectiles.push(later);
-    let baked = bake(&scene, &mut |_| {}).unwrap();
+    let baked = bake(&scene).unwrap();
     let run = play(&scene, &baked, &mut |_| {}).unwrap();
     let mut blows = run.blows.iter().map(|blow| blow.time);
     assert!(blows.clone().any(|time| (0.3..2.0).contains(&time)));

@@ -5,7 +5,9 @@ use std::sync::Arc;
 use crate::common::{self, blow, glass, pieces, stone_floor};
 use frangible::glam::Vec3;
 use frangible::internals::{Force, rest};
-use frangible::{Asset, Body, Contact, FractureConfig, Material, Outcome, impact, would_break};
+use frangible::{
+    Asset, Body, Breakable, Contact, FractureConfig, Material, Outcome, impact, would_break,
+};
 use frangible_bake::{BakeSpec, Region, Shape, Support, bake};
 
 const GRAVITY: Vec3 = Vec3::new(0.0, 0.0, -9.81);
@@ -18,7 +20,7 @@ fn bar(supports: Vec<Support>) -> Body {
         supports,
         ..BakeSpec::new("bar", shape, Material::preset("glass").unwrap())
     };
-    Body::new(bake(&spec, &mut |_| {}).unwrap().0.into(), 1).unwrap()
+    Breakable::uniform(bake(&spec).unwrap()).unwrap().body(1)
 }
 
 fn unculled() -> FractureConfig {
@@ -118,7 +120,7 @@ fn a_shelf_holds_less_than_its_strength_and_breaks_under_more() {
 #[test]
 fn friction_pushes_as_a_normal_impulse_does() {
     let asset: &Asset = glass();
-    let body = Body::new(Arc::clone(glass()), 1).unwrap();
+    let body = Breakable::uniform(Arc::clone(glass())).unwrap().body(1);
     // Of a given impulse: one that is integrated is an outcome, and friction goes with it.
     let mut config = FractureConfig::with_given_impulses();
     config.culling = false;

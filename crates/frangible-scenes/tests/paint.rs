@@ -10,7 +10,7 @@ use frangible::glam::Vec3;
 use frangible::internals::impact_traced;
 use frangible::{Asset, Breakable, FractureConfig};
 use frangible_bake::weakness::{self, Channel, Paint, Patch, Zone};
-use frangible_scenes::{Scene, bake, parse_scene, play};
+use frangible_scenes::{Scene, bake, bake_with, parse_scene, play};
 
 /// Sides of the plate, m.
 const PLATE: [f32; 3] = [0.2, 0.12, 0.006];
@@ -118,7 +118,7 @@ fn cracked_along(kind: &Breakable, seed: u64) -> f64 {
     const BINS: usize = 20;
     let mut cut = [false; BINS];
     for element in trace.cracks.iter().flatten() {
-        let p = asset.fracture.centroid(element.tet as usize);
+        let p = asset.fracture().centroid(element.tet as usize);
         if (p.x - PAINT.0).abs() <= PAINT.1 {
             let bin = ((p.y / PLATE[1] + 0.5) * BINS as f32) as usize;
             cut[bin.min(BINS - 1)] = true;
@@ -128,8 +128,10 @@ fn cracked_along(kind: &Breakable, seed: u64) -> f64 {
 }
 
 fn kind(asset: &Arc<Asset>, scene: &Scene) -> Breakable {
-    let fields = weakness::from_paint(asset, &scene.bodies[0].paint).unwrap();
-    let kind = Breakable::new(Arc::clone(asset)).unwrap();
+    let fields = weakness::from_paint(asset, &scene.bodies[0].paint)
+        .unwrap()
+        .with_weibull_modulus(0.0);
+    let kind = Breakable::uniform(Arc::clone(asset)).unwrap();
     kind.with_fields(fields).unwrap()
 }
 
@@ -139,9 +141,9 @@ fn a_painted_plate_breaks_along_the_paint() {
     fs::write(folder.0.join("painted.obj"), plate(true)).unwrap();
     fs::write(folder.0.join("bare.obj"), plate(false)).unwrap();
     let painted = scene(&folder.0, "painted.obj", WEAK_WHERE_RED);
-    let baked = bake(&painted, &mut |_| {}).unwrap();
+    let baked = bake(&painted).unwrap();
     let asset = &baked[0].asset;
-    assert!(!asset.render.as_ref().unwrap().colors.is_empty());
+    assert!(!asset.render().unwrap().colors.is_empty());
 
     // Of the same asset: with what its paint means, and as if it meant nothing.
     let bare = scene(&folder.0, "painted.obj", "");
@@ -166,10 +168,10 @@ fn a_painted_plate_breaks_along_the_paint() {
     // And the whole way, from the file to pieces.
     let run = play(&painted, &baked, &mut |_| {}).unwrap();
     let report = &run.break_of(0).unwrap().report;
-    assert!(report.strength < 0.5 * asset.material.strength);
+    assert!(report.strength < 0.5 * asset.material().strength);
     let run = play(&bare, &baked, &mut |_| {}).unwrap();
     let report = run.break_of(0).map(|b| b.report.strength);
-    assert!(report.is_none_or(|s| s == asset.material.strength));
+    assert!(report.is_none_or(|s| s == asset.material().strength));
 
     // Zones lie over paint.
     let patch = Patch::of_strength(Zone::Box([Vec3::NEG_ONE, Vec3::ONE]), 2.0);
@@ -185,7 +187,7 @@ fn a_painted_plate_breaks_along_the_paint() {
 
     // A mesh without paint is refused before anything is baked, and so is an asset made of it.
     let bare = scene(&folder.0, "bare.obj", WEAK_WHERE_RED);
-    let message = bake(&bare, &mut |_| panic!("baked"))
+    let message = bake_with(&bare, |_| panic!("baked"))
         .unwrap_err()
         .to_string();
     assert!(
@@ -193,7 +195,7 @@ fn a_painted_plate_breaks_along_the_paint() {
         "{message}"
     );
     let mut plain = Asset::clone(asset);
-    plain.render.as_mut().unwrap().colors.clear();
+    plain.parts_mut().render.as_mut().unwrap().colors.clear();
     let message = weakness::from_paint(&plain, &painted.bodies[0].paint).unwrap_err();
     assert!(message.to_string().contains("vertex colours"), "{message}");
 }

@@ -244,7 +244,7 @@ fn bodies_of_a_kit_start_side_by_side_and_rest_on_each_other() {
         let closed = body.report.as_ref().unwrap().closed_volume.unwrap();
         assert!((closed / volume - 1.0).abs() < 1e-6);
         // The lattice cuts off corners; the mesher allows for 3 %.
-        let off = body.asset.mass.volume / volume - 1.0;
+        let off = body.asset.mass().volume / volume - 1.0;
         assert!(off.abs() < 0.03, "{off}");
     }
     let mut live = LiveScene::new(&scene, &baked).unwrap();

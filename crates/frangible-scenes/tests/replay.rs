@@ -69,8 +69,8 @@ fn contacts_and_a_seed_replay_a_break_bit_for_bit() {
     assert_eq!(bytes.len(), 8 + impacts.len() + Contact::BYTES * contacts);
     let config = FractureConfig::default();
     // Another machine: the asset came there as a file.
-    let here = Breakable::new(Arc::clone(glass())).unwrap();
-    let there = Breakable::new(Asset::from_bytes(&glass().to_bytes()).unwrap()).unwrap();
+    let here = Breakable::uniform(Arc::clone(glass())).unwrap();
+    let there = Breakable::uniform(Asset::from_bytes(&glass().to_bytes()).unwrap()).unwrap();
     let (states, pieces) = replay(&here, &bytes, &config);
     let cracked: usize = states.iter().map(Vec::len).sum();
     println!(

@@ -9,43 +9,43 @@ use crate::common::{block, blow, pane, steel_ball, stone_floor};
 use frangible::glam::{DMat3, Mat3, Quat, Vec3};
 use frangible::internals::asset::{AnalysisMesh, OuterSurface};
 use frangible::internals::{TetMesh, impact_traced};
-use frangible::{Asset, Body, Contact, FractureConfig};
+use frangible::{Asset, Breakable, Contact, FractureConfig};
 
 /// The asset in a frame turned by q.
 fn turned(asset: &Asset, q: Quat) -> Asset {
     let all = |points: &[Vec3]| -> Vec<Vec3> { points.iter().map(|&p| q * p).collect() };
-    let mut new = asset.clone();
-    new.fracture = TetMesh::new(all(&asset.fracture.positions), asset.fracture.tets.clone()).into();
-    let gradients = asset.analysis.barycentric_gradients.iter();
+    let mut new = asset.clone().into_parts();
+    new.fracture = TetMesh::new(
+        all(&asset.fracture().positions),
+        asset.fracture().tets.clone(),
+    )
+    .into();
+    let gradients = asset.analysis().barycentric_gradients.iter();
     new.analysis = AnalysisMesh {
-        nodes: all(&asset.analysis.nodes),
+        nodes: all(&asset.analysis().nodes),
         barycentric_gradients: gradients.map(|g| g.map(|v| q * v)).collect(),
-        ..asset.analysis.clone()
+        ..asset.analysis().clone()
     };
     new.surface = OuterSurface {
         normals: asset
-            .surface
+            .surface()
             .normals
             .iter()
             .map(|n| n.map(|v| q * v))
             .collect(),
-        ..asset.surface.clone()
+        ..asset.surface().clone()
     };
-    for point in new
-        .embedding
-        .tets
-        .iter_mut()
-        .chain(&mut new.embedding.nodes)
-    {
+    let points = new.embedding.tets.iter_mut();
+    for point in points.chain(&mut new.embedding.nodes) {
         point.offset = q * point.offset;
     }
     for cell in &mut new.cells {
         cell.points = all(&cell.points);
     }
-    let m = asset.modes.count();
+    let m = asset.modes().count();
     for (node, rows) in new.modes.shapes.chunks_mut(3 * m).enumerate() {
         for mode in 0..m {
-            let phi = |axis| asset.modes.row(3 * node + axis)[mode];
+            let phi = |axis| asset.modes().row(3 * node + axis)[mode];
             let phi = q * Vec3::new(phi(0), phi(1), phi(2));
             for axis in 0..3 {
                 rows[axis * m + mode] = phi[axis];
@@ -53,14 +53,14 @@ fn turned(asset: &Asset, q: Quat) -> Asset {
         }
     }
     let rotation: DMat3 = Mat3::from_quat(q).as_dmat3();
-    new.mass.inertia = rotation * asset.mass.inertia * rotation.transpose();
-    new
+    new.mass.inertia = rotation * asset.mass().inertia * rotation.transpose();
+    Asset::from_parts(new)
 }
 
 /// Without the roughness of its cracks, which is fixed to the body's axes.
 fn smooth(asset: &Asset) -> Asset {
     let mut smooth = asset.clone();
-    smooth.material.roughness_amplitude = 0.0;
+    smooth.parts_mut().material.roughness_amplitude = 0.0;
     smooth
 }
 
@@ -74,7 +74,7 @@ fn a_body_turned_with_its_blow_breaks_the_same_way() {
     for asset in [pane(), block()] {
         let asset = smooth(asset);
         let span = asset
-            .fracture
+            .fracture()
             .positions
             .iter()
             .copied()
@@ -90,7 +90,7 @@ fn a_body_turned_with_its_blow_breaks_the_same_way() {
             let contact = blow(&asset, at, toward, 4.0 + 2.0 * k as f64, striker);
             let config = FractureConfig::default();
             let run = |asset: Asset, contact: Contact| {
-                let body = Body::new(Arc::new(asset), k).unwrap();
+                let body = Breakable::uniform(Arc::new(asset)).unwrap().body(k);
                 impact_traced(&body, std::slice::from_ref(&contact), &config)
                     .unwrap()
                     .1

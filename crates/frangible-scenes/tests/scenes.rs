@@ -18,7 +18,7 @@ use crate::common::made::made;
 fn cheap(name: &str) -> (Scene, Vec<BakedBody>) {
     let mut scene = scene(name).unwrap();
     scene.bodies[0].modes = 40;
-    let baked = bake(&scene, &mut |_| {}).unwrap();
+    let baked = bake(&scene).unwrap();
     (scene, baked)
 }
 
@@ -117,11 +117,11 @@ fn a_dropped_glass_breaks_comes_to_rest_and_loses_nothing() {
     assert!(run.at_rest || moving <= masses.len() / 6, "{moving}");
     let mass: f64 = masses.iter().sum();
     assert!(
-        (mass / asset.mass.mass - 1.0).abs() < 1e-9,
+        (mass / asset.mass().mass - 1.0).abs() < 1e-9,
         "{mass} kg of {} kg",
-        asset.mass.mass
+        asset.mass().mass
     );
-    assert!((run.breaks[0].volume / asset.mass.volume - 1.0).abs() < 1e-9);
+    assert!((run.breaks[0].volume / asset.mass().volume - 1.0).abs() < 1e-9);
     assert!(
         masses.windows(2).all(|w| w[0] >= w[1]),
         "masses fall: {masses:?}"
@@ -333,7 +333,7 @@ fn two_panes() -> &'static (Scene, Vec<BakedBody>) {
         other.place = Place::Standing { over: [2.0, 0.0] };
         scene.bodies.push(other);
         scene.projectiles[0].target = 1;
-        let baked = bake(&scene, &mut |_| {}).unwrap();
+        let baked = bake(&scene).unwrap();
         (scene, baked)
     })
 }
@@ -477,7 +477,7 @@ fn no_bodies_of_a_built_in_scene_overlap() {
             (body.modes, body.followed) = (12, None);
         }
         scene.duration = 1.0 / 60.0;
-        let baked = bake(&scene, &mut |_| {}).unwrap();
+        let baked = bake(&scene).unwrap();
         let played = play(&scene, &baked, &mut |_| {});
         assert!(played.is_ok(), "{name}: {}", played.unwrap_err());
     }

@@ -18,9 +18,9 @@ fn block() -> (Arc<Asset>, f64) {
         fracture: Some(size),
         ..BakeSpec::new("block", shape, porcelain)
     };
-    let mut asset = bake(&spec, &mut |_| {}).unwrap().0;
+    let mut asset = bake(&spec).unwrap();
     // The corner is to bring all of the blow into the block.
-    asset.material.crushing_pressure = f64::INFINITY;
+    asset.parts_mut().material.crushing_pressure = f64::INFINITY;
     (Arc::new(asset), 0.09 * 0.07)
 }
 
@@ -29,9 +29,9 @@ fn block() -> (Arc<Asset>, f64) {
 #[test]
 fn a_block_that_is_cracked_through_comes_apart() {
     let (asset, section) = block();
-    let kind = Breakable::new(Arc::clone(&asset)).unwrap();
+    let kind = Breakable::uniform(Arc::clone(&asset)).unwrap();
     let kind = kind
-        .with_fields(Fields::of_material(&asset.material))
+        .with_fields(Fields::of_material(asset.material()))
         .unwrap();
     let corner = Vec3::new(0.06, 0.045, -0.035);
     let floor = Striker::fixed(&Material::preset("stone").unwrap());
@@ -48,7 +48,7 @@ fn a_block_that_is_cracked_through_comes_apart() {
             let Outcome::Broke(fracture) = &outcome else {
                 return 1.0;
             };
-            fracture.fragments[0].mass.mass / asset.mass.mass
+            fracture.fragments[0].mass.mass / asset.mass().mass
         })
         .collect();
     println!("largest pieces at 40 m/s: {largest:.2?}");

@@ -22,7 +22,7 @@ fn glass() -> (Scene, Run, Vec<BakedBody>) {
     }
     // Until nearly all pieces lie.
     scene.duration = 2.5;
-    let baked = bake(&scene, &mut |_| {}).expect("a glass");
+    let baked = bake(&scene).expect("a glass");
     let run = play(&scene, &baked, &mut |_| {}).expect("a run");
     (scene, run, baked)
 }

@@ -20,7 +20,7 @@ fn damage(asset: &Arc<Asset>, contact: Contact, config: &FractureConfig, seeds: 
 
 fn changed(asset: &Arc<Asset>, change: impl FnOnce(&mut Material)) -> Arc<Asset> {
     let mut asset = Asset::clone(asset);
-    change(&mut asset.material);
+    change(asset.parts_mut().material);
     Arc::new(asset)
 }
 
@@ -95,13 +95,11 @@ fn softer(model: &str, config: &FractureConfig) -> Vec<(f64, f64)> {
     let inwards = -Vec3::new(point.x, point.y, 0.0).normalize();
     let d: Vec<_> = [5e6, 1e8, 2e11]
         .map(|contact_modulus| {
-            let striker = Striker {
-                contact_modulus,
-                inverse_effective_mass: 1.0 / 0.06,
-                curvature_radius: 0.015,
-                restitution: 0.5,
-                ..Striker::rigid()
-            };
+            let striker = Striker::rigid()
+                .with_contact_modulus(contact_modulus)
+                .with_effective_mass(0.06)
+                .with_curvature_radius(0.015)
+                .with_restitution(0.5);
             damage(
                 glass(),
                 blow(glass(), point, inwards, 10.0, striker),

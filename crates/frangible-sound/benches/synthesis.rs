@@ -6,7 +6,7 @@ use std::sync::Arc;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use frangible_sound::glam::{DQuat, DVec3, Vec3};
 use frangible_sound::{
-    AudibleDamping, Listener, Plate, PlateMaterial, Pulse, Strike, Synth, SynthConfig,
+    AudibleDamping, Listener, Plate, PlateMaterial, SoundPulse, Strike, Synth, SynthConfig,
 };
 
 const GLASS: PlateMaterial = PlateMaterial {
@@ -32,7 +32,7 @@ fn ringing(config: SynthConfig, shards: usize, impulse: f64) -> Synth {
             .add(Arc::new(body), place, DQuat::IDENTITY)
             .expect("a body");
         let strike = Strike {
-            pulse: Arc::new(Pulse::half_sine(impulse, 1e-4)),
+            pulse: Arc::new(SoundPulse::half_sine(impulse, 1e-4)),
             push: plate.push(Vec3::new(0.3 * side as f32, 0.01, 0.0), Vec3::Z),
             direction: Vec3::Z,
         };

@@ -9,7 +9,7 @@ use crate::waves::HARMONICS;
 
 /// A body that radiates sound, as plain data. The origin of its frame is the centre of mass.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Body {
+pub struct SoundBody {
     /// Name, for messages.
     pub name: String,
     /// Mass of the rigid motion, kg; infinite for a supported body, which sounds only by its modes.
@@ -62,7 +62,7 @@ impl Mode {
     }
 }
 
-impl Body {
+impl SoundBody {
     /// Creates a rigid ball, whose modes are above the range of hearing, from its radius, m, and mass, kg.
     ///
     /// # Errors

@@ -2,7 +2,7 @@
 //!
 //! A break is over in a millisecond, so the damping at 10 kHz does not affect it, but it is audible: with the values of the fracture model, glass
 //! would ring ten times too long. Sound therefore has its own damping, the sum of three parts: the material, defined here; the
-//! [radiation](crate::Body), which follows from the modes; and the [supports](Hold).
+//! [radiation](crate::SoundBody), which follows from the modes; and the [supports](Hold).
 
 use frangible::Material;
 

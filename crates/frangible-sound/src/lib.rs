@@ -1,6 +1,6 @@
 //! The sound of breaking bodies, from the same vibration modes and forces that break them: plain data in, samples out.
 //!
-//! The input of a [`Synth`] are [bodies](Body), their positions and their events: [strikes](Strike) with the force histories of the fracture
+//! The input of a [`Synth`] are [bodies](SoundBody), their positions and their events: [strikes](Strike) with the force histories of the fracture
 //! model, cracks with their energy, and breaks. Its output is the sound pressure at the ears, Pa. It needs no audio device and no threads, and
 //! the same calls give the same samples.
 //!
@@ -19,7 +19,7 @@
 //! ```
 //! use std::sync::Arc;
 //! use frangible_sound::glam::{DQuat, DVec3, Vec3};
-//! use frangible_sound::{AudibleDamping, Listener, Plate, PlateMaterial, Pulse, Strike, Synth, SynthConfig, wav};
+//! use frangible_sound::{AudibleDamping, Listener, Plate, PlateMaterial, SoundPulse, Strike, Synth, SynthConfig, wav};
 //!
 //! # fn main() -> Result<(), frangible_sound::SoundError> {
 //! let glass = PlateMaterial {
@@ -33,7 +33,7 @@
 //! let mut synth = Synth::new(SynthConfig::new(listener))?;
 //! let tile = synth.add(Arc::new(body), DVec3::ZERO, DQuat::IDENTITY)?;
 //! let strike = Strike {
-//!     pulse: Arc::new(Pulse::half_sine(0.01, 2e-4)),
+//!     pulse: Arc::new(SoundPulse::half_sine(0.01, 2e-4)),
 //!     push: plate.push(Vec3::new(0.07, 0.04, 0.0), Vec3::Z),
 //!     direction: Vec3::Z,
 //! };
@@ -76,7 +76,7 @@ mod waves;
 
 pub use air::{AIR_DENSITY, SPEED_OF_SOUND};
 pub use bank::BLOCK;
-pub use body::{Body, Mode};
+pub use body::{Mode, SoundBody};
 pub use config::{SynthConfig, SynthReport};
 pub use damping::{AudibleDamping, Hold};
 pub use ellipsoid::moved_air;
@@ -89,8 +89,8 @@ pub use listener::{Listener, SoundFloor};
 pub use of_asset::{AssetSound, HIGHEST};
 pub use outlet::Outlet;
 pub use plate::{Plate, PlateMaterial};
-pub use pulse::Pulse;
-pub use scene::{Cast, EngineStep, Hearing, Motion, Push, Sounding, Touching, recorded_blow};
+pub use pulse::SoundPulse;
+pub use scene::{Cast, EngineMotion, EngineStep, Hearing, Push, Sounding, Touching, recorded_blow};
 pub use sphere::{EquivalentSphere, SurfaceElement};
 pub use strike::{CRACK_SHARE, CRACK_SPEED, Strike, first_push};
 pub use synth::Synth;

@@ -6,7 +6,7 @@ use frangible::Asset;
 use frangible::internals::asset::each_row;
 use glam::{DVec3, Vec3};
 
-use crate::body::{Body, Mode};
+use crate::body::{Mode, SoundBody};
 use crate::damping::{AudibleDamping, Hold};
 use crate::error::SoundError;
 use crate::sphere::{EquivalentSphere, SurfaceElement};
@@ -32,12 +32,12 @@ impl AssetSound {
         body: &frangible::Body,
         damping: &AudibleDamping,
         hold: Hold,
-    ) -> Result<(Self, Body), SoundError> {
+    ) -> Result<(Self, SoundBody), SoundError> {
         let asset = body.asset();
         let surface = elements(asset);
         let places: Vec<SurfaceElement> = surface.iter().map(|(_, element)| *element).collect();
         let sphere = EquivalentSphere::of(&places)?;
-        let frequencies = asset.modes.eigenvalues.iter();
+        let frequencies = asset.modes().eigenvalues.iter();
         let frequencies = frequencies.map(|l| l.max(0.0).sqrt() / std::f64::consts::TAU);
         let heard: Vec<f64> = frequencies.take_while(|&f| f <= HIGHEST).collect();
         let motion = motion(asset, &sphere, &surface, heard.len());
@@ -45,12 +45,12 @@ impl AssetSound {
             // Rounding gives a loose piece modes of a fraction of a hertz, which nobody hears.
             Mode::new(frequency.max(1.0), motion, &sphere, damping, hold)
         });
-        let sound = Body {
-            name: asset.name.clone(),
+        let sound = SoundBody {
+            name: asset.name().to_owned(),
             mass: if asset.is_supported() {
                 f64::INFINITY
             } else {
-                asset.mass.mass
+                asset.mass().mass
             },
             modes: modes.collect(),
             sphere,
@@ -69,10 +69,10 @@ impl AssetSound {
     pub fn push(&self, point: Vec3, direction: Vec3) -> Vec<f32> {
         let asset = self.body.asset();
         let at = self.body.nearest_on_surface(point);
-        let mut sums = vec![0.0_f32; asset.modes.count()];
+        let mut sums = vec![0.0_f32; asset.modes().count()];
         each_row(asset, &at, |node, weight| {
             let push = (direction * weight).to_array();
-            asset.modes.add_push(node, push, &mut sums);
+            asset.modes().add_push(node, push, &mut sums);
         });
         sums.truncate(self.count);
         sums
@@ -85,7 +85,7 @@ impl AssetSound {
         let at = self.body.nearest_on_surface(point);
         let mut sum = Vec3::ZERO;
         each_row(asset, &at, |node, weight| {
-            let along = asset.modes.rows(node).map(|row| {
+            let along = asset.modes().rows(node).map(|row| {
                 let modes = row[..self.count].iter().zip(weights);
                 modes.map(|(phi, weight)| phi * weight).sum::<f32>()
             });
@@ -106,7 +106,7 @@ fn elements(asset: &Asset) -> Vec<([u32; 3], SurfaceElement)> {
         };
         (triangle, element)
     };
-    asset.surface.triangles.iter().map(element).collect()
+    asset.surface().triangles.iter().map(element).collect()
 }
 
 /// Motion of the first modes on the sphere: one list of harmonics for each.
@@ -118,7 +118,7 @@ fn motion(
     surface: &[([u32; 3], SurfaceElement)],
     modes: usize,
 ) -> Vec<Vec<f32>> {
-    let nodes = asset.analysis.nodes.len();
+    let nodes = asset.analysis().nodes.len();
     let mut slot = vec![usize::MAX; nodes];
     let mut carried: Vec<(usize, [DVec3; HARMONICS])> = Vec::new();
     let mut at_vertex = vec![None::<Box<[DVec3; HARMONICS]>>; asset.surface_positions().len()];
@@ -134,8 +134,8 @@ fn motion(
     }
     for (vertex, sums) in at_vertex.iter().enumerate() {
         let Some(sums) = sums else { continue };
-        let point = &asset.embedding.nodes[vertex];
-        let element = asset.analysis.elements[point.element as usize];
+        let point = &asset.embedding().nodes[vertex];
+        let element = asset.analysis().elements[point.element as usize];
         for (&node, share) in element.iter().zip(point.shape_values()) {
             let node = node as usize;
             if slot[node] == usize::MAX {
@@ -150,7 +150,7 @@ fn motion(
     }
     let mut motion = vec![vec![0.0_f32; modes]; HARMONICS];
     for (node, weights) in &carried {
-        let rows = asset.modes.rows(*node).map(|row| &row[..modes]);
+        let rows = asset.modes().rows(*node).map(|row| &row[..modes]);
         for (row, weight) in motion.iter_mut().zip(weights) {
             let [x, y, z] = weight.as_vec3().to_array();
             for (((sum, a), b), c) in row.iter_mut().zip(rows[0]).zip(rows[1]).zip(rows[2]) {

@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 
 use glam::{DMat3, DQuat, DVec3, Vec3};
 
-use crate::body::{Body, Mode};
+use crate::body::{Mode, SoundBody};
 use crate::damping::{AudibleDamping, Hold};
 use crate::error::{SoundError, within};
 use crate::of_asset::HIGHEST;
@@ -120,7 +120,7 @@ impl Plate {
         surface: &[SurfaceElement],
         mass: f64,
         material: &PlateMaterial,
-    ) -> Result<(Self, Body), SoundError> {
+    ) -> Result<(Self, SoundBody), SoundError> {
         let area: f64 = surface.iter().map(|e| e.area.length()).sum();
         let range = "above zero";
         within(
@@ -174,7 +174,7 @@ impl Plate {
         sides: [f64; 3],
         axes: DQuat,
         material: &PlateMaterial,
-    ) -> Result<(Self, Body), SoundError> {
+    ) -> Result<(Self, SoundBody), SoundError> {
         let range = "above zero";
         for side in sides {
             within(|| "a side of a plate, m,".into(), side, side > 0.0, range)?;
@@ -234,7 +234,7 @@ impl Plate {
             let frequency = omega / std::f64::consts::TAU;
             Mode::new(frequency, motion, &sphere, &material.damping, Hold::Free)
         });
-        let body = Body {
+        let body = SoundBody {
             name: name.into(),
             mass,
             modes: modes.collect(),

@@ -5,7 +5,7 @@ use crate::error::{SoundError, finite, within};
 
 /// A force over time, with linear interpolation between values.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Pulse {
+pub struct SoundPulse {
     /// Time between two values, s.
     pub time_step: f64,
     /// Force at the end of each time step, N. It is zero at the start of the first step and drops to zero after the last value.
@@ -18,7 +18,7 @@ const HALF_SINE_STEPS: usize = 24;
 /// Longest pulse that is heard as one, s.
 const LONGEST: f64 = 10.0;
 
-impl Pulse {
+impl SoundPulse {
     /// Creates a half-sine pulse with this impulse, N·s, and duration, s, a good approximation of an elastic collision.
     #[must_use]
     pub fn half_sine(impulse: f64, duration: f64) -> Self {
@@ -131,7 +131,7 @@ pub(crate) fn half_sine_share(frequency: f64, duration: f64) -> f64 {
 /// any approximation. A corner of the force, where its slope jumps by S and itself by J, leaves a free oscillation S/λ² + J/λ from there; with
 /// the forced motion −F/λ − F'/λ² that is all of z.
 pub(crate) struct Drive<'a> {
-    pulse: &'a Pulse,
+    pulse: &'a SoundPulse,
     pole: Complex,
     inverse: Complex,
     inverse_square: Complex,
@@ -150,7 +150,7 @@ pub(crate) struct Drive<'a> {
 impl<'a> Drive<'a> {
     /// Begins with the sample that comes `first` seconds after the beginning of the pulse, zero or later; the one before came `tick` seconds
     /// earlier, when the pulse may have begun already.
-    pub(crate) fn new(pulse: &'a Pulse, pole: Complex, tick: f64, first: f64) -> Self {
+    pub(crate) fn new(pulse: &'a SoundPulse, pole: Complex, tick: f64, first: f64) -> Self {
         let inverse = pole.inverse();
         let mut drive = Self {
             pulse,

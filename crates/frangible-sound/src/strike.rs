@@ -5,17 +5,17 @@ use std::sync::Arc;
 
 use glam::Vec3;
 
-use crate::body::Body;
+use crate::body::SoundBody;
 use crate::complex::Complex;
 use crate::error::{SoundError, finite};
 use crate::of_asset::HIGHEST;
-use crate::pulse::{Pulse, half_sine_share};
+use crate::pulse::{SoundPulse, half_sine_share};
 
 /// A force on a body, or several simultaneous forces.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Strike {
     /// The force over time.
-    pub pulse: Arc<Pulse>,
+    pub pulse: Arc<SoundPulse>,
     /// Modal forces per newton, 1/√kg: φ_i(x)·n, one per mode, as returned by [`AssetSound::push`](crate::AssetSound::push). If empty, no
     /// mode is excited.
     pub push: Vec<f32>,
@@ -28,7 +28,7 @@ impl Strike {
     ///
     /// # Errors
     /// The first invalid number.
-    pub fn validate(&self, body: &Body) -> Result<(), SoundError> {
+    pub fn validate(&self, body: &SoundBody) -> Result<(), SoundError> {
         self.pulse.validate()?;
         let name = &body.name;
         if !self.push.is_empty() && self.push.len() != body.modes.len() {
@@ -53,7 +53,7 @@ impl Strike {
 
     /// Returns the vibration energy that the strike leaves in a body, J, neglecting losses during the strike.
     #[must_use]
-    pub fn energy(&self, body: &Body) -> f64 {
+    pub fn energy(&self, body: &SoundBody) -> f64 {
         let modes = body.modes.iter().zip(&self.push);
         let energy = modes.filter_map(|(mode, &push)| {
             let given = self.pulse.spectrum(pole(mode.frequency, 0.0)?);
@@ -69,12 +69,12 @@ impl Strike {
     /// half-sine has between the lowest mode and [`HIGHEST`](crate::HIGHEST), modes being about as many in each hertz. `None` where they
     /// cannot take any.
     #[must_use]
-    pub fn crack(body: &Body, push: Vec<f32>, duration: f64, energy: f64) -> Option<Self> {
+    pub fn crack(body: &SoundBody, push: Vec<f32>, duration: f64, energy: f64) -> Option<Self> {
         if duration <= 0.0 || energy <= 0.0 || !(duration * energy).is_finite() {
             return None;
         }
         let unit = Self {
-            pulse: Arc::new(Pulse::half_sine(duration, duration)),
+            pulse: Arc::new(SoundPulse::half_sine(duration, duration)),
             push,
             direction: Vec3::ZERO,
         };
@@ -85,7 +85,7 @@ impl Strike {
         let heard = (band * 16.0 * duration / PI.powi(2)).min(1.0);
         let scale = (heard * energy / given).sqrt();
         (given > 0.0 && scale.is_finite()).then(|| Self {
-            pulse: Arc::new(Pulse::half_sine(scale * duration, duration)),
+            pulse: Arc::new(SoundPulse::half_sine(scale * duration, duration)),
             ..unit
         })
     }
@@ -93,7 +93,7 @@ impl Strike {
 
 /// The first push between two bodies that come together with a speed, m/s: its impulse, N·s, and its duration, s.
 ///
-/// One newton-second changes the speed of rigid bodies by their [`Body::yields`] in sum, m/s. Modes that are fast enough to answer
+/// One newton-second changes the speed of rigid bodies by their [`SoundBody::yields`] in sum, m/s. Modes that are fast enough to answer
 /// yield as well, so that less mass has to be stopped at first, and the push is both smaller and shorter. The modes then never get more than
 /// a quarter of the energy of the approach, where the impulse of rigid bodies could give them many times that. `takes` finds a push's
 /// duration, s, from the mass that it stops, kg.
@@ -101,7 +101,7 @@ impl Strike {
 pub fn first_push(
     speed: f64,
     yields: f64,
-    bodies: &[(&Body, &[f32])],
+    bodies: &[(&SoundBody, &[f32])],
     takes: impl Fn(f64) -> f64,
 ) -> (f64, f64) {
     if yields <= 0.0 {

@@ -6,11 +6,11 @@ use std::sync::Arc;
 use glam::{DQuat, DVec3};
 
 use crate::bank::BLOCK;
-use crate::body::Body;
+use crate::body::SoundBody;
 use crate::config::{SynthConfig, SynthReport};
 use crate::error::{SoundError, finite, within};
 use crate::listener::{Listener, longest_delay};
-use crate::pulse::Pulse;
+use crate::pulse::SoundPulse;
 use crate::strike::Strike;
 use crate::thump::Thump;
 use crate::voice::{Room, Voice};
@@ -21,7 +21,7 @@ pub(crate) enum Event {
     Put(usize, DVec3, DQuat),
     Strike(usize, Strike),
     Hush(usize),
-    Thump(DVec3, Arc<Pulse>),
+    Thump(DVec3, Arc<SoundPulse>),
     Listen(Listener),
 }
 
@@ -100,7 +100,7 @@ impl Synth {
     /// An invalid number of the body or its position.
     pub fn add(
         &mut self,
-        body: Arc<Body>,
+        body: Arc<SoundBody>,
         place: DVec3,
         rotation: DQuat,
     ) -> Result<usize, SoundError> {
@@ -174,7 +174,12 @@ impl Synth {
     ///
     /// # Errors
     /// A number that is not finite or out of range.
-    pub fn thump(&mut self, time: f64, place: DVec3, pulse: Arc<Pulse>) -> Result<(), SoundError> {
+    pub fn thump(
+        &mut self,
+        time: f64,
+        place: DVec3,
+        pulse: Arc<SoundPulse>,
+    ) -> Result<(), SoundError> {
         pulse.validate()?;
         placed(place, DQuat::IDENTITY)?;
         self.event(time, Event::Thump(place, pulse))
@@ -197,7 +202,7 @@ impl Synth {
         self.event(time, Event::Listen(listener))
     }
 
-    fn body(&self, index: usize) -> Result<&Body, SoundError> {
+    fn body(&self, index: usize) -> Result<&SoundBody, SoundError> {
         let voice = self.voices.get(index).and_then(Option::as_ref);
         voice.map(|v| &*v.body).ok_or(SoundError::NoBody {
             index,

@@ -8,13 +8,13 @@ use crate::air::{AIR_DENSITY, SPEED_OF_SOUND};
 use crate::bank::BLOCK;
 use crate::config::SynthConfig;
 use crate::listener::Ways;
-use crate::pulse::Pulse;
+use crate::pulse::SoundPulse;
 
 /// A force on the floor.
 #[derive(Clone, Debug)]
 pub(crate) struct Thump {
     start: f64,
-    pulse: Arc<Pulse>,
+    pulse: Arc<SoundPulse>,
     /// Pressure per rate of change of the force, Pa·s/N.
     size: f64,
     pub(crate) ways: Ways,
@@ -26,7 +26,7 @@ impl Thump {
         config: &SynthConfig,
         start: f64,
         place: DVec3,
-        pulse: Arc<Pulse>,
+        pulse: Arc<SoundPulse>,
     ) -> Option<Self> {
         let floor = config.floor.as_ref()?;
         let listener = &config.listener;

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use glam::{DQuat, DVec3};
 
 use crate::bank::{BLOCK, LANES, Lanes};
-use crate::body::Body;
+use crate::body::SoundBody;
 use crate::complex::Complex;
 use crate::listener::Ways;
 use crate::strike::{Strike, pole};
@@ -36,7 +36,7 @@ pub(crate) struct Slot {
 /// A body that sounds.
 #[derive(Clone, Debug)]
 pub(crate) struct Voice {
-    pub(crate) body: Arc<Body>,
+    pub(crate) body: Arc<SoundBody>,
     place: DVec3,
     rotation: DQuat,
     /// Pressure per velocity of each degree, of each mode; and the distance they are for.
@@ -62,7 +62,12 @@ pub(crate) struct Room<'a> {
 }
 
 impl Voice {
-    pub(crate) fn new(body: Arc<Body>, place: DVec3, rotation: DQuat, room: &Room<'_>) -> Self {
+    pub(crate) fn new(
+        body: Arc<SoundBody>,
+        place: DVec3,
+        rotation: DQuat,
+        room: &Room<'_>,
+    ) -> Self {
         let ways = Ways::new(
             room.listener,
             room.floor,

@@ -5,22 +5,22 @@ use std::sync::Arc;
 use crate::common::plate;
 use frangible_sound::glam::{DQuat, DVec3, Vec3};
 use frangible_sound::{
-    AudibleDamping, Body, EquivalentSphere, Limiter, Listener, Plate, PlateMaterial, Pulse,
-    SoundError, SoundFloor, Strike, SurfaceElement, Synth, SynthConfig, wav,
+    AudibleDamping, EquivalentSphere, Limiter, Listener, Plate, PlateMaterial, SoundBody,
+    SoundError, SoundFloor, SoundPulse, Strike, SurfaceElement, Synth, SynthConfig, wav,
 };
 
 fn config() -> SynthConfig {
     SynthConfig::new(Listener::at(DVec3::new(0.3, 0.5, 1.2), DVec3::ZERO))
 }
 
-fn tile() -> (Plate, Arc<Body>) {
+fn tile() -> (Plate, Arc<SoundBody>) {
     let (plate, body) = plate([0.12, 0.1, 0.005]);
     (plate, Arc::new(body))
 }
 
 fn strike(plate: &Plate, impulse: f64) -> Strike {
     Strike {
-        pulse: Arc::new(Pulse::half_sine(impulse, 2e-4)),
+        pulse: Arc::new(SoundPulse::half_sine(impulse, 2e-4)),
         push: plate.push(Vec3::new(0.05, 0.03, 0.0), Vec3::Z),
         direction: Vec3::Z,
     }
@@ -107,7 +107,7 @@ fn pulses_that_are_no_numbers_are_refused() {
         (1.0, f64::NAN, "time step"),
         (1.0, 20.0, "duration"),
     ] {
-        let pulse = Arc::new(Pulse {
+        let pulse = Arc::new(SoundPulse {
             time_step: step,
             force: vec![1.0, force],
         });
@@ -178,7 +178,7 @@ fn pulses_that_are_no_numbers_are_refused() {
 fn bodies_that_are_none_are_refused() {
     let (_, body) = tile();
     let mut synth = Synth::new(config()).expect("a configuration");
-    let mut add = |change: fn(&mut Body)| {
+    let mut add = |change: fn(&mut SoundBody)| {
         let mut body = (*body).clone();
         change(&mut body);
         synth.add(Arc::new(body), DVec3::ZERO, DQuat::IDENTITY)
@@ -207,7 +207,7 @@ fn bodies_that_are_none_are_refused() {
         area: -DVec3::X,
     };
     refused(EquivalentSphere::of(&[inside_out]), &["inside out"]);
-    refused(Body::ball("ball", -1.0, 1.0), &["radius"]);
+    refused(SoundBody::ball("ball", -1.0, 1.0), &["radius"]);
     let nothing = PlateMaterial {
         youngs_modulus: 0.0,
         poisson_ratio: 0.2,
@@ -227,12 +227,12 @@ fn bodies_that_are_none_are_refused() {
 #[test]
 fn a_body_without_modes_is_heard_as_it_is_shaken() {
     let mut synth = Synth::new(config()).expect("a configuration");
-    let ball = Arc::new(Body::ball("ball", 0.02, 0.1).expect("a ball"));
+    let ball = Arc::new(SoundBody::ball("ball", 0.02, 0.1).expect("a ball"));
     let id = synth
         .add(ball, DVec3::ZERO, DQuat::IDENTITY)
         .expect("a body");
     let hit = Strike {
-        pulse: Arc::new(Pulse::half_sine(0.1, 1e-4)),
+        pulse: Arc::new(SoundPulse::half_sine(0.1, 1e-4)),
         push: Vec::new(),
         direction: Vec3::Z,
     };

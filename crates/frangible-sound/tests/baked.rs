@@ -7,26 +7,26 @@ use frangible::{Breakable, Material};
 use frangible_bake::{BakeSpec, Shape, bake};
 use frangible_sound::glam::{DQuat, DVec3, Vec3};
 use frangible_sound::{
-    AssetSound, AudibleDamping, Body, Hold, Listener, Pulse, Strike, Synth, SynthConfig,
+    AssetSound, AudibleDamping, Hold, Listener, SoundBody, SoundPulse, Strike, Synth, SynthConfig,
 };
 
 const RATE: f64 = 48_000.0;
 
 /// A baked body ready to sound, of few elements and modes.
-fn baked(shape: Shape, material: Material) -> (AssetSound, Body) {
+fn baked(shape: Shape, material: Material) -> (AssetSound, SoundBody) {
     let damping = AudibleDamping::of(&material);
     let spec = BakeSpec {
         modes: 24,
         followed: Some(24),
         ..BakeSpec::for_games("body", shape, material).expect("a shape")
     };
-    let (asset, _) = bake(&spec, &mut |_| {}).expect("a bake");
-    let kind = Breakable::new(Arc::new(asset)).expect("a kind");
+    let asset = bake(&spec).expect("a bake");
+    let kind = Breakable::uniform(Arc::new(asset)).expect("a kind");
     AssetSound::new(&kind.body(1), &damping, Hold::Free).expect("a sound")
 }
 
 /// Sound pressure of a blow at 1 m, Pa.
-fn heard(body: &Body, push: Vec<f32>) -> Vec<f64> {
+fn heard(body: &SoundBody, push: Vec<f32>) -> Vec<f64> {
     let listener = Listener {
         channels: 1,
         ..Listener::at(DVec3::new(0.5, 0.4, 0.75), DVec3::ZERO)
@@ -36,7 +36,7 @@ fn heard(body: &Body, push: Vec<f32>) -> Vec<f64> {
         .add(Arc::new(body.clone()), DVec3::ZERO, DQuat::IDENTITY)
         .expect("a body");
     let strike = Strike {
-        pulse: Arc::new(Pulse::half_sine(0.01, 1e-4)),
+        pulse: Arc::new(SoundPulse::half_sine(0.01, 1e-4)),
         push,
         direction: Vec3::ZERO,
     };

@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use crate::common::plate;
 use frangible_sound::glam::{DQuat, DVec3, Vec3};
-use frangible_sound::{Body, Listener, Plate, Pulse, Strike, Synth, SynthConfig};
+use frangible_sound::{Listener, Plate, SoundBody, SoundPulse, Strike, Synth, SynthConfig};
 
-fn shard(sides: [f64; 3]) -> (Plate, Arc<Body>) {
+fn shard(sides: [f64; 3]) -> (Plate, Arc<SoundBody>) {
     let (plate, body) = plate(sides);
     (plate, Arc::new(body))
 }
@@ -21,7 +21,7 @@ fn config() -> SynthConfig {
 
 fn strike(plate: &Plate, impulse: f64) -> Strike {
     Strike {
-        pulse: Arc::new(Pulse::half_sine(impulse, 1e-4)),
+        pulse: Arc::new(SoundPulse::half_sine(impulse, 1e-4)),
         push: plate.push(Vec3::new(0.04, 0.03, 0.0), Vec3::Z),
         direction: Vec3::Z,
     }

@@ -5,21 +5,21 @@ use std::sync::Arc;
 
 use frangible_sound::glam::{DQuat, DVec3, Vec3};
 use frangible_sound::{
-    AIR_DENSITY, AudibleDamping, Body, EquivalentSphere, HARMONICS, Hold, Listener, Mode, Pulse,
-    SPEED_OF_SOUND, SoundFloor, Strike, Synth, SynthConfig, harmonic,
+    AIR_DENSITY, AudibleDamping, EquivalentSphere, HARMONICS, Hold, Listener, Mode, SPEED_OF_SOUND,
+    SoundBody, SoundFloor, SoundPulse, Strike, Synth, SynthConfig, harmonic,
 };
 
 const RATE: f64 = 48_000.0;
 
 /// A ball of 3 cm with one mode per harmonic asked for: place, frequency, Hz, and how its sphere moves, 1/√kg.
-fn body(modes: &[(usize, f64, f32)], damping: AudibleDamping) -> Arc<Body> {
+fn body(modes: &[(usize, f64, f32)], damping: AudibleDamping) -> Arc<SoundBody> {
     let sphere = EquivalentSphere::ball(0.03).expect("a ball");
     let mode = |&(place, frequency, size): &(usize, f64, f32)| {
         let mut motion = vec![0.0; HARMONICS];
         motion[place] = size;
         Mode::new(frequency, motion, &sphere, &damping, Hold::Free)
     };
-    Arc::new(Body {
+    Arc::new(SoundBody {
         name: "ball".into(),
         mass: 0.3,
         modes: modes.iter().map(mode).collect(),
@@ -41,14 +41,20 @@ fn mono(place: DVec3) -> SynthConfig {
 
 fn balanced(push: Vec<f32>, impulse: f64, duration: f64) -> Strike {
     Strike {
-        pulse: Arc::new(Pulse::half_sine(impulse, duration)),
+        pulse: Arc::new(SoundPulse::half_sine(impulse, duration)),
         push,
         direction: Vec3::ZERO,
     }
 }
 
 /// Pressure at the listener, Pa, of one strike on a body at the origin.
-fn heard(config: SynthConfig, body: &Arc<Body>, strike: Strike, time: f64, long: f64) -> Vec<f64> {
+fn heard(
+    config: SynthConfig,
+    body: &Arc<SoundBody>,
+    strike: Strike,
+    time: f64,
+    long: f64,
+) -> Vec<f64> {
     let mut synth = Synth::new(config).expect("a configuration");
     let id = synth
         .add(body.clone(), DVec3::ZERO, DQuat::IDENTITY)
@@ -98,12 +104,12 @@ fn a_mode_rings_as_the_closed_form_says() {
 
 #[test]
 fn a_shaken_ball_sends_what_its_dipole_sends_in_the_far_field() {
-    let ball = Arc::new(Body::ball("ball", 0.03, 0.2).expect("a ball"));
+    let ball = Arc::new(SoundBody::ball("ball", 0.03, 0.2).expect("a ball"));
     let (r, duration) = (2.0, 4e-3);
     // A half-sine of 40 N without corners that could be heard.
     let steps = 800;
     let force = |k: i32| 40.0 * (PI * f64::from(k) / f64::from(steps)).sin();
-    let pulse = Arc::new(Pulse {
+    let pulse = Arc::new(SoundPulse {
         time_step: duration / f64::from(steps),
         force: (1..=steps).map(|k| force(k) as f32).collect(),
     });
@@ -276,13 +282,13 @@ fn how_many_samples_are_asked_for_changes_nothing() {
 fn a_floor_takes_a_shake_across_it_away_and_doubles_one_along_it() {
     // Pressures of a dipole and of its image in a rigid floor: shaken up and down the image moves against it, along the floor with it. The ball
     // lies far nearer to the floor than a wave is long, so that nothing is left of the one and twice as much of the other.
-    let ball = Arc::new(Body::ball("ball", 0.005, 0.2).expect("a ball"));
+    let ball = Arc::new(SoundBody::ball("ball", 0.005, 0.2).expect("a ball"));
     let floor = SoundFloor {
         reflection: 1.0,
         ..SoundFloor::stone(-0.005)
     };
     let steps = 800;
-    let pulse = Arc::new(Pulse {
+    let pulse = Arc::new(SoundPulse {
         time_step: 4e-3 / f64::from(steps),
         force: (1..=steps)
             .map(|k| 40.0 * (PI * f64::from(k) / f64::from(steps)).sin() as f32)

@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use crate::common::plate;
 use frangible_sound::glam::Vec3;
-use frangible_sound::{Body, Pulse, Strike, first_push};
+use frangible_sound::{SoundBody, SoundPulse, Strike, first_push};
 
 fn strike(impulse: f64, duration: f64, push: &[f32]) -> Strike {
     Strike {
-        pulse: Arc::new(Pulse::half_sine(impulse, duration)),
+        pulse: Arc::new(SoundPulse::half_sine(impulse, duration)),
         push: push.to_vec(),
         direction: Vec3::Z,
     }
@@ -25,7 +25,7 @@ fn modes_get_no_more_than_a_quarter_of_the_energy_of_the_approach() {
             let yields = body.yields(point, Vec3::Z);
             for duration in [1e-6, 1e-5, 1e-4, 1e-3] {
                 let speed = 2.0;
-                let bodies: [(&Body, &[f32]); 1] = [(&body, &push)];
+                let bodies: [(&SoundBody, &[f32]); 1] = [(&body, &push)];
                 let (impulse, _) = first_push(speed, yields, &bodies, |_| duration);
                 let energy = strike(impulse, duration, &push).energy(&body);
                 let approach = 0.5 * speed * speed / yields;
@@ -58,7 +58,7 @@ fn a_push_in_the_middle_moves_the_mass_and_one_at_the_end_turns_it_too() {
     // A rod at its end: 1 + l²/4 / (l²/12) = 4; the surface of this one has more of it at the ends.
     let end = body.yields(Vec3::new(0.1, 0.0, 0.0), Vec3::Z) * body.mass;
     assert!((3.7..4.1).contains(&end), "{end}");
-    let held = Body {
+    let held = SoundBody {
         mass: f64::INFINITY,
         ..body
     };

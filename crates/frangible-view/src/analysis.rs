@@ -75,9 +75,9 @@ impl Analysis {
         let report = outcome.report();
         let mut analysis = Self {
             course: Arc::default(),
-            cracks: cracks(&asset.fracture, &trace),
+            cracks: cracks(asset.fracture(), &trace),
             cut,
-            weak_points: middles(&asset.fracture, body.weak_tets()),
+            weak_points: middles(asset.fracture(), body.weak_tets()),
             contact: report.contact_duration,
             motion: trace.motion,
             time_step: report.time_step,
@@ -93,8 +93,8 @@ impl Analysis {
 
     /// The numbers over time of contacts that were integrated, or of a half-sine of this impulse, N·s; without a motion there are none.
     fn over_time(&self, impulse: f32, contacts: &[ContactReport]) -> Course {
-        let basis = &self.asset.modes;
-        let damping = |mode| basis.damping(mode, &self.asset.material);
+        let basis = self.asset.modes();
+        let damping = |mode| basis.damping(mode, self.asset.material());
         let modes = 0..basis.count();
         let cracking = self.cracking();
         let end = self.motion.begin(self.motion.steps(), self.time_step);
@@ -146,7 +146,7 @@ impl Analysis {
 
     fn plotted_modes(&self) -> Vec<Series> {
         let motion = &self.motion;
-        let basis = &self.asset.modes;
+        let basis = self.asset.modes();
         let stress = |step: usize, mode: usize| motion.at(step)[mode] * basis.peak_stress[mode];
         let peak = |mode: usize| {
             let steps = 0..motion.steps();

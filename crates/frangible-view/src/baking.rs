@@ -119,7 +119,7 @@ pub(crate) fn of_wanted_material(
     let mut all = Vec::new();
     for (body, baked) in scene.bodies.iter().zip(baked) {
         let mut wanted = match body.source {
-            BodySource::Asset(_) => baked.asset.material.clone(),
+            BodySource::Asset(_) => baked.asset.material().clone(),
             _ => body.material.clone(),
         };
         if let (BodySource::Asset(_), Some([now, own])) = (&body.source, settings) {
@@ -127,10 +127,10 @@ pub(crate) fn of_wanted_material(
         }
         let known = made
             .iter()
-            .find(|(from, to)| Arc::ptr_eq(from, &baked.asset) && to.asset.material == wanted);
+            .find(|(from, to)| Arc::ptr_eq(from, &baked.asset) && *to.asset.material() == wanted);
         let one = match known {
             Some((_, to)) => to.clone(),
-            None if baked.asset.material == wanted => baked.clone(),
+            None if *baked.asset.material() == wanted => baked.clone(),
             None => BakedBody {
                 asset: Arc::new(frangible_bake::with_material(&baked.asset, &wanted)?),
                 report: baked.report.clone(),

@@ -63,9 +63,9 @@ impl Skins {
         let key = (Arc::as_ptr(asset) as usize, fine);
         let found = self.0.entry(key).or_insert_with(|| {
             let faces = match fine {
-                true => skin(asset.fracture.tets.iter().copied()),
+                true => skin(asset.fracture().tets.iter().copied()),
                 false => {
-                    let elements = asset.analysis.elements.iter();
+                    let elements = asset.analysis().elements.iter();
                     skin(elements.map(|e| [e[0], e[1], e[2], e[3]]))
                 }
             };
@@ -88,8 +88,8 @@ impl Skins {
     ) -> Batch {
         let faces = self.faces(asset, fine);
         let nodes = match fine {
-            true => &asset.fracture.positions,
-            false => &asset.analysis.nodes,
+            true => &asset.fracture().positions,
+            false => &asset.analysis().nodes,
         };
         let mut positions = nodes.clone();
         for (node, displacement) in positions.iter_mut().zip(displacements) {

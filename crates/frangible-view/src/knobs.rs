@@ -32,9 +32,9 @@ impl Settings {
             _ => None,
         };
         Some(Self {
-            material: asset.map_or(&body.material, |a| &a.material).clone(),
+            material: asset.map_or(&body.material, |a| a.material()).clone(),
             fracture: scene.fracture.clone(),
-            modes: asset.map_or(body.modes, |a| a.modes.count()),
+            modes: asset.map_or(body.modes, |a| a.modes().count()),
             seed: scene.seed,
             printed_coefficient: match scene.fracture.duration {
                 DurationModel::AsPrinted { c } => c,

@@ -38,7 +38,7 @@ fn out(pose: Pose, point: Vec3) -> Vec3 {
 
 /// Distance of a body's farthest point from its centre of mass, m.
 pub(crate) fn reach(asset: &Asset) -> f32 {
-    let positions = asset.fracture.positions.iter();
+    let positions = asset.fracture().positions.iter();
     positions.map(|p| p.length()).fold(1e-6, f32::max)
 }
 
@@ -65,9 +65,9 @@ pub(crate) fn strained(
     let field = motion_on_fracture_mesh(asset, analysis.amplitudes(share));
     let largest = analysis.course.peak_tension.max(1.0);
     // Tensions jump from triangle to triangle: their means at the nodes show no blotches.
-    let mut tensions = vec![(0.0_f32, 0.0_f32); asset.fracture.positions.len()];
+    let mut tensions = vec![(0.0_f32, 0.0_f32); asset.fracture().positions.len()];
     for (triangle, stress) in analysis.surface_stress(share) {
-        for &node in &asset.surface.triangles[triangle as usize] {
+        for &node in &asset.surface().triangles[triangle as usize] {
             let (sum, count) = &mut tensions[node as usize];
             *sum += largest_eigenvalue(&stress);
             *count += 1.0;
@@ -80,7 +80,7 @@ pub(crate) fn strained(
     let place = |node: u32| {
         let node = node as usize;
         let moved = exaggeration as f32 * field.displacements[node];
-        out(pose, asset.fracture.positions[node] + moved)
+        out(pose, asset.fracture().positions[node] + moved)
     };
     let mut batches = vec![batch];
     batches.extend(cuts(analysis, share, place));
@@ -174,7 +174,7 @@ fn surface(
     pose: Pose,
     value: impl Fn(usize) -> f32,
 ) -> Batch {
-    let triangles = &asset.surface.triangles;
+    let triangles = &asset.surface().triangles;
     let rotation = pose.rotation.normalize();
     let mut batch = Batch {
         looks: BatchLooks::Values,
@@ -184,10 +184,10 @@ fn surface(
         faces: Arc::new(numbered(3 * triangles.len())),
         stamp: 0,
     };
-    for (triangle, normals) in triangles.iter().zip(&asset.surface.normals) {
+    for (triangle, normals) in triangles.iter().zip(&asset.surface().normals) {
         for (&node, &normal) in triangle.iter().zip(normals) {
             let node = node as usize;
-            let at = asset.fracture.positions[node] + factor * field.displacements[node];
+            let at = asset.fracture().positions[node] + factor * field.displacements[node];
             batch.positions.push(out(pose, at));
             batch.normals.push(rotation * normal);
             batch.values.push(value(node).clamp(0.0, 1.0));
@@ -199,7 +199,7 @@ fn surface(
 /// The body as a ghost, and its cracks up to a moment of the contact, coloured by time.
 pub(crate) fn cracks(analysis: &Analysis, pose: Pose, share: f64) -> Vec<Batch> {
     let still = ModeField {
-        displacements: vec![Vec3::ZERO; analysis.asset.fracture.positions.len()],
+        displacements: vec![Vec3::ZERO; analysis.asset.fracture().positions.len()],
         stresses: Vec::new(),
     };
     let mut ghost = surface(&analysis.asset, &still, 0.0, pose, |_| 0.0);

@@ -135,7 +135,7 @@ impl Methods {
         let rotation = self.blow.pose.rotation.normalize();
         let reach = reach(asset);
         let size = [0, 1].map(|k: usize| {
-            let along = asset.fracture.positions.iter();
+            let along = asset.fracture().positions.iter();
             let along = along.map(|&p| (rotation * p).dot(axes[k]).abs());
             2.0 * along.fold(0.5 * LEAST[k] * reach, f32::max)
         });

@@ -93,7 +93,7 @@ impl From<&Blow> for BlowNumbers {
                 times.cracks,
                 times.labels + times.fragments + times.drawing,
             ],
-            tetrahedra: blow.body.asset().fracture.tets.len(),
+            tetrahedra: blow.body.asset().fracture().tets.len(),
         }
     }
 }

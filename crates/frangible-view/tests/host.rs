@@ -25,7 +25,7 @@ impl OneScene {
     }
 
     fn bodies(&self) -> Vec<BakedBody> {
-        bake(&scene_of_file(&self.0).unwrap(), &mut |_| {}).unwrap()
+        bake(&scene_of_file(&self.0).unwrap()).unwrap()
     }
 }
 
@@ -113,7 +113,7 @@ fn the_host_is_asked_for_another_bake_only_where_knobs_need_one() {
     apply(&mut session, "hit-again").unwrap();
     let (wanted, order) = kept.borrow_mut().orders.pop().unwrap();
     assert!(!same_bakes(&own, &wanted));
-    order.finish(bake(&wanted, &mut |_| {}));
+    order.finish(bake(&wanted));
     session.finish_jobs();
     let shown = session.shown();
     assert_eq!(shown.steps, before, "the scene was not begun again");

@@ -23,7 +23,7 @@ fn both_meshes_of_a_whole_body_lie_where_it_does_and_go_when_they_are_hidden() {
     assert_eq!(both.len(), 2);
     let live = session.live().unwrap();
     let asset = live.body_before(live.things()[0].handle).unwrap().asset();
-    assert_eq!(both[0].faces.len(), asset.surface.triangles.len());
+    assert_eq!(both[0].faces.len(), asset.surface().triangles.len());
     assert!(both[1].faces.len() < both[0].faces.len(), "the coarse one");
     for batch in &both {
         let used = batch.faces.iter().flatten();

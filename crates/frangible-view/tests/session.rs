@@ -145,10 +145,10 @@ fn knobs_of_the_modes_bake_again_and_the_others_do_not() {
     let live = session.live().unwrap();
     let body = live.body_before(live.things()[0].handle).unwrap();
     let asset = body.asset();
-    assert_eq!(asset.modes.count(), 12);
-    assert_eq!(asset.material.poisson_ratio, 0.3);
-    assert_eq!(asset.material.density, 3000.0);
-    assert_eq!(asset.material.youngs_modulus, 50e9);
+    assert_eq!(asset.modes().count(), 12);
+    assert_eq!(asset.material().poisson_ratio, 0.3);
+    assert_eq!(asset.material().density, 3000.0);
+    assert_eq!(asset.material().youngs_modulus, 50e9);
     // An earlier bake is at hand.
     assert!(!apply(&mut session, "knob modes 20"));
 }

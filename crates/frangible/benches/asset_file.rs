@@ -25,7 +25,7 @@ fn asset_file(c: &mut Criterion) {
     asset.save(&path).unwrap();
     println!(
         "{} tetrahedra, {:.2} MB",
-        asset.fracture.tets.len(),
+        asset.fracture().tets.len(),
         bytes.len() as f64 / 1e6
     );
 
@@ -42,7 +42,7 @@ fn asset_file(c: &mut Criterion) {
     group.bench_function("checksum", |b| b.iter(|| seal(black_box(&mut sealed))));
     group.finish();
     // What storing the adjacency saves.
-    let mesh = &asset.fracture;
+    let mesh = asset.fracture();
     c.bench_function("rebuild_adjacency", |b| {
         b.iter(|| TetMesh::new(mesh.positions.clone(), mesh.tets.clone()));
     });

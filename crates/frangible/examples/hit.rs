@@ -55,11 +55,11 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 fn surface(asset: &Asset, path: &Path) -> Result<(), Box<dyn Error>> {
     let mut to = BufWriter::new(File::create(path)?);
-    let triangles = asset.surface.triangles.iter().copied();
+    let triangles = asset.surface().triangles.iter().copied();
     write_object(
         &mut to,
         "surface",
-        &asset.fracture.positions,
+        &asset.fracture().positions,
         triangles,
         &mut 0,
     )?;
@@ -84,7 +84,7 @@ fn pieces(path: &str, folder: &Path, runs: usize, wanted: &[usize]) -> Result<()
 }
 
 fn ready(path: &str) -> Result<Body, Box<dyn Error>> {
-    Ok(Breakable::new(Asset::load(path)?)?.body(SEED))
+    Ok(Breakable::uniform(Asset::load(path)?)?.body(SEED))
 }
 
 /// Processor time of this thread where the system tells it (Linux), so that other work on the machine counts less; else
@@ -156,7 +156,7 @@ fn try_all(body: &Body, most: usize) -> Result<Vec<Tried>, Box<dyn Error>> {
 fn blow(body: &Body, side: Vec3, speed: f64) -> Result<Contact, Box<dyn Error>> {
     let asset = body.asset();
     let point = asset
-        .fracture
+        .fracture()
         .positions
         .iter()
         .copied()
@@ -213,8 +213,8 @@ fn measure(
         blow_of.speed,
         blow_of.name,
         report.timings.drawing,
-        body.asset().fracture.tets.len(),
-        body.asset().modes.count(),
+        body.asset().fracture().tets.len(),
+        body.asset().modes().count(),
         report.time_steps,
         report.cracks,
         report.crack_area,

@@ -11,24 +11,30 @@ pub struct FractureConfig {
     #[doc(hidden)]
     pub model: Model,
     /// Contact duration model. Default: [`DurationModel::Integrated`].
+    #[doc(hidden)]
     pub duration: DurationModel,
     /// Lengthens a contact with given impulse and duration until the body's vibration has no more energy than the impact supplied.
     /// Default: off, because an integrated blow does not need it.
+    #[doc(hidden)]
     pub admissible_duration: bool,
     /// Includes the static response of the modes that are not integrated through time, as the residual vector, in integrated blows, blasts and
     /// sustained loads. Default: on. The paper omits these modes.
+    #[doc(hidden)]
     pub residual: bool,
     /// Theory for the near field of contacts on walls: the local stress and compliance under a contact that the modes do not resolve
     /// ([`near_field`](crate::internals::near_field)). Default: elastic layer. The paper has no near field.
+    #[doc(hidden)]
     pub near_field: Option<PlateTheory>,
     /// Skips time steps and places whose stress bound stays below the strength. Affects only speed: the result is bit-identical
     /// without it. Default: on.
+    #[doc(hidden)]
     pub culling: bool,
     /// Time steps per period of the highest relevant mode; 2 is the Nyquist limit, 0.5 is `[G12 Eq. 3]` as printed.
     /// Above 0.1 and at most 1000. Default 8. Stress is interpolated linearly between time steps.
     pub samples_per_period: f64,
     /// Gives each weak point the flaw size that follows from its strength by Griffith's criterion, and averages the stress over that flaw.
     /// Default: on. In the paper it is a point `[G12 §4.4]`.
+    #[doc(hidden)]
     pub sized_flaws: bool,
     /// Assumed duration of sustained loads, s: with static fatigue, glass that holds for a second may fail within a year
     /// ([`Fields::fatigue`](crate::internals::Fields::fatigue)). Worlds add the time for which a load has lasted in them. Zero or more.
@@ -111,6 +117,7 @@ impl FractureConfig {
     ///
     /// # Errors
     /// The first field that is out of range, with its range.
+    #[doc(hidden)]
     pub fn validate(&self) -> Result<(), InputError> {
         let samples = self.samples_per_period;
         OutOfRange::unless(
@@ -170,6 +177,7 @@ impl FractureConfig {
     /// Settings for given impulses: the extended crack model under half-sine forces with the engine's impulses, whose duration follows Hertz's law
     /// and is lengthened if they supply too much energy. Only the modes integrated through time respond, and the stress is taken at the weak
     /// point instead of averaged over its flaw. Use it on the GPU, or when the contact itself need not be resolved.
+    #[doc(hidden)]
     #[must_use]
     pub fn with_given_impulses() -> Self {
         Self {

@@ -1,7 +1,8 @@
 //! Everything that is not needed to break a body and use its pieces: the parts that the sibling crates are built from, and that the laboratory
 //! and the viewer look into.
 //!
-//! **Names in here may change in any release**, the patch releases included. What stands at the root of the crate does not.
+//! **Names in here may change in any release**, the patch releases included, and so may members that are hidden from the documentation of the
+//! root. What is documented at the root does not.
 //!
 //! The modules follow the way of a contact through the crate: [`asset`] and [`mesh`] (results of a bake), [`body`], [`contact`],
 //! [`blow`], [`modal`] and [`near_field`] (the motion), [`stress`], [`loads`] (other ways to move a body), [`piece`] (a fragment as

@@ -11,7 +11,7 @@
 //! - [`Outcome`]: the body held, or broke into [`Fragment`]s, with an [`ImpactReport`].
 //!
 //! [`FractureConfig`] holds the settings: its default extends the paper's model, [`FractureConfig::as_in_the_paper`] reproduces it.
-//! [`internals`] exports everything else; its names may change in any release.
+//! [`internals`] exports everything else. Its names, and members that this documentation does not show, may change in any release.
 //! All quantities are in SI units and in the body frame (origin at the centre of mass). The same input gives bit-identical results.
 
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
@@ -49,13 +49,15 @@ mod trace;
 use frangible_geometry as mesh;
 use frangible_material as material;
 
-pub use asset::Asset;
+pub use asset::{Asset, AssetFileError, RescaleError};
 pub use body::{Body, Breakable};
 pub use config::FractureConfig;
-pub use contact::{Contact, Striker};
+pub use contact::{Contact, ContactReport, Striker};
 pub use error::InputError;
+pub use fields::{Factors, Fields};
 pub use glam;
 pub use impact::{impact, would_break};
-pub use material::Material;
-pub use mesh::TriMesh;
+pub use material::{Fatigue, Material, OutOfRange, Preset, UnknownMaterial};
+pub use mesh::{MassProperties, RenderMesh, TriMesh};
 pub use outcome::{Fracture, Fragment, ImpactReport, Outcome};
+pub use state::BodyState;

@@ -62,6 +62,7 @@ pub struct Fracture {
 
 impl Fracture {
     /// Makes a break from pieces that were computed elsewhere. They cannot break again.
+    #[doc(hidden)]
     #[must_use]
     pub fn new(fragments: Vec<Fragment>, report: ImpactReport) -> Self {
         Self {
@@ -72,6 +73,7 @@ impl Fracture {
     }
 
     /// Returns true if the fragments have [velocities of their own](crate::Fragment::velocity), because pieces separated during an integrated blow.
+    #[doc(hidden)]
     #[must_use]
     pub fn moves_apart(&self) -> bool {
         let mut fragments = self.fragments.iter();
@@ -103,12 +105,16 @@ pub struct ImpactReport {
     /// Contact duration t_d, s.
     pub contact_duration: f64,
     /// Hertz contact duration for a rigid, free body, s; in models that lengthen the duration, the value before lengthening.
+    #[doc(hidden)]
     pub unadjusted_duration: f64,
     /// Frequency of the most excited mode, Hz.
+    #[doc(hidden)]
     pub most_excited_frequency: f64,
     /// Time step Δt, s.
+    #[doc(hidden)]
     pub time_step: f64,
     /// Number of time steps evaluated.
+    #[doc(hidden)]
     pub time_steps: usize,
     /// Largest principal tensile stress computed at a weak point, Pa. Points whose bound stays below the strength are skipped, so it is 0 if
     /// all are; see `stress_bound`.
@@ -116,17 +122,22 @@ pub struct ImpactReport {
     /// Position of that stress, m, body frame: the centre of the weak point's tetrahedron.
     pub peak_point: Option<Vec3>,
     /// Upper bound of the tensile stress at all weak points, Pa, until a crack cuts the point or its piece comes to rest.
+    #[doc(hidden)]
     pub stress_bound: f64,
     /// Level of detail at which the impact was decided.
+    #[doc(hidden)]
     pub looked_at: LookedAt,
     /// Tensile strength R_c, Pa; if it varies over the body, that of the weakest weak point.
     pub strength: f64,
     /// Largest kinetic energy that the contacts can take from the relative motion of the bodies, J. If a bound decided the impact, or impulses
     /// are given, the energy that these impulses take, Σ ½ φ v / (1 + e).
+    #[doc(hidden)]
     pub approach_energy: f64,
     /// Largest modal (kinetic + elastic) energy at a time step, J.
+    #[doc(hidden)]
     pub peak_elastic_energy: f64,
     /// Largest strain energy at a time step, J; with the energy ledger, the limit of the total energy of all cracks.
+    #[doc(hidden)]
     pub peak_strain_energy: f64,
     /// Fracture energy Σ A G_c, J.
     pub fracture_energy: f64,
@@ -135,23 +146,30 @@ pub struct ImpactReport {
     /// Number of cracks that started.
     pub cracks: usize,
     /// Number of cracks that branched off another crack at a fork.
+    #[doc(hidden)]
     pub forks: usize,
     /// Number of weak points of the body.
+    #[doc(hidden)]
     pub weak_points: usize,
     /// Time of the first crack since the start of the contact, s.
+    #[doc(hidden)]
     pub first_crack_time: Option<f64>,
     /// Position where the first crack started, m, body frame.
     pub first_crack_point: Option<Vec3>,
     /// Volume of all fragments over the volume of the body, minus one.
+    #[doc(hidden)]
     pub volume_error: f64,
     /// Fractured tetrahedra and their arrival times, s since the start of the contact: one list per crack that this impact extended, in the
     /// order of growth.
+    #[doc(hidden)]
     pub arrivals: Vec<Vec<(u32, f64)>>,
     /// Report of each contact, if the blow was integrated.
     pub contacts: Vec<ContactReport>,
     /// Energy balance of the blow, if it was integrated.
+    #[doc(hidden)]
     pub blow_energy: BlowEnergy,
     /// Wall-clock time of each stage.
+    #[doc(hidden)]
     pub timings: StageTimings,
 }
 

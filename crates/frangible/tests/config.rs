@@ -13,7 +13,7 @@ fn body() -> Body {
         elements: 3,
         modes: 2,
     });
-    Breakable::new(asset).unwrap().body(1)
+    Breakable::uniform(asset).unwrap().body(1)
 }
 
 fn hit(impulse: f32, speed: f32) -> Contact {

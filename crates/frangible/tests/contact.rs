@@ -1,8 +1,8 @@
 //! How contact durations go with what they depend on, and what a contact must not hold.
 
-use frangible::glam::Vec3;
+use frangible::glam::{Mat3, Vec3};
 use frangible::internals::contact;
-use frangible::{Contact, Striker};
+use frangible::{Contact, Material, Striker};
 
 fn relative(a: f64, b: f64) -> f64 {
     (a / b - 1.0).abs()
@@ -41,6 +41,12 @@ fn modal_duration_of_the_plate_in_the_theory_is_a_millisecond() {
 }
 
 fn sound() -> Contact {
+    let mut striker = Striker::rigid()
+        .with_contact_modulus(2e11)
+        .with_effective_mass(0.1)
+        .with_curvature_radius(0.01)
+        .with_restitution(0.5);
+    striker.crushing_pressure = 5e9;
     Contact {
         point: Vec3::new(0.1, 0.0, 0.0),
         normal: Vec3::NEG_X,
@@ -48,16 +54,7 @@ fn sound() -> Contact {
         friction: Vec3::new(0.0, 0.1, 0.0),
         approach_speed: 4.0,
         duration: 0.0,
-        striker: Striker {
-            contact_modulus: 2e11,
-            crushing_pressure: 5e9,
-            inverse_effective_mass: 10.0,
-            curvature_radius: 0.01,
-            restitution: 0.5,
-            modal_duration: 0.0,
-            shared: None,
-            receptance: None,
-        },
+        striker,
     }
 }
 
@@ -74,6 +71,31 @@ fn a_sound_contact_is_accepted_even_from_a_rigid_flat_immovable_striker() {
     }
     .validate()
     .unwrap();
+}
+
+#[test]
+fn a_striking_body_resists_with_its_mass_and_its_inertia() {
+    let steel = Material::preset("steel").unwrap();
+    let (mass, inertia, arm) = (2.0, 0.5, 0.25);
+    let turns = Mat3::from_diagonal(Vec3::splat(1.0 / inertia));
+    let at = |arm: Vec3| Striker::body(&steel, 3, mass, turns, arm, Vec3::NEG_Z);
+    let central = at(Vec3::NEG_Z).inverse_effective_mass;
+    assert!((central - 0.5).abs() < 1e-6, "{central}");
+    let sides = [arm, -arm].map(|x| at(Vec3::new(x, 0.0, -0.1)));
+    let expected = 0.5 + arm * arm / inertia;
+    for side in &sides {
+        let found = side.inverse_effective_mass;
+        assert!((found - expected).abs() < 1e-6, "{found}");
+        let contact = Contact::strike(Vec3::ZERO, Vec3::NEG_Z, 1.0, side.clone());
+        contact.validate().unwrap();
+    }
+    // A push on one side moves the other side by v · v' + ω · ω': the body turns away from it.
+    let [one, other] = sides.map(|side| side.shared.unwrap());
+    let between = one.velocity.dot(other.velocity) + one.spin.dot(other.spin);
+    assert!(
+        (between - (0.5 - arm * arm / inertia)).abs() < 1e-6,
+        "{between}"
+    );
 }
 
 #[test]

@@ -9,7 +9,7 @@ fn cracks_cost_their_area_times_the_toughness() {
     for b in breaks() {
         let (name, report) = (&b.name, &b.fracture.report);
         assert!(report.cracks > 0 && report.crack_area > 0.0, "{name}");
-        let cost = b.body.asset().material.fracture_energy * report.crack_area;
+        let cost = b.body.asset().material().fracture_energy * report.crack_area;
         assert!(
             (report.fracture_energy / cost - 1.0).abs() < 1e-6,
             "{name}: {} J, not {cost} J",
@@ -67,8 +67,8 @@ fn cracks_spend_no_more_than_the_blow_brought() {
 #[test]
 fn what_no_motion_can_pay_does_not_crack() {
     let mut asset = (**pane().asset()).clone();
-    asset.material.fracture_energy *= 1e6;
-    let kind = Breakable::new(asset).unwrap();
+    asset.parts_mut().material.fracture_energy *= 1e6;
+    let kind = Breakable::uniform(asset).unwrap();
     for seed in 1..=3 {
         let hit = pane_hit(0.0, 0.0, 20.0);
         let outcome = strike(&kind, seed, hit, &FractureConfig::default());
@@ -104,7 +104,7 @@ fn a_crack_is_one_surface_that_grows_in_time() {
             let body = kind.body(2);
             let (outcome, _) =
                 impact_traced(&body, std::slice::from_ref(&contact), &config).unwrap();
-            let tets = &body.asset().fracture.tets;
+            let tets = &body.asset().fracture().tets;
             let mut cut_by = vec![None; tets.len()];
             for (crack, arrivals) in outcome.report().arrivals.iter().enumerate() {
                 let what = format!("{name}, {model}, crack {crack}");
@@ -137,16 +137,16 @@ fn cracks_run_at_their_speed_or_at_once() {
     let hit = pane_hit(0.0, 0.0, 20.0);
     let (asset, speed) = (
         pane().asset(),
-        0.5 * pane().asset().material.rayleigh_speed(),
+        0.5 * pane().asset().material().rayleigh_speed(),
     );
     let mut farthest = 0.0_f64;
     let outcome = strike(pane(), 1, hit.clone(), &FractureConfig::default());
     for crack in &outcome.report().arrivals {
         let (start, since) = crack[0];
         for &(tet, time) in crack {
-            let [a, b] = [start, tet].map(|tet| asset.fracture.centroid(tet as usize));
+            let [a, b] = [start, tet].map(|tet| asset.fracture().centroid(tet as usize));
             // From the middle of a tetrahedron to that of another, within which the crack itself begins and arrives.
-            let way = f64::from(a.distance(b) - 2.0 * asset.fracture.mean_edge());
+            let way = f64::from(a.distance(b) - 2.0 * asset.fracture().mean_edge());
             assert!(
                 way <= speed * (time - since),
                 "{way} m in {} s",

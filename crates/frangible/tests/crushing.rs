@@ -9,10 +9,10 @@ use crate::bodies::{block, steel_ball};
 /// The brick without damping, crushed at this pressure, Pa.
 fn brick(pressure: f64) -> Body {
     let mut asset = block().asset().as_ref().clone();
-    asset.material.stiffness_damping = 0.0;
-    asset.material.mass_damping = 0.0;
-    asset.material.crushing_pressure = pressure;
-    Breakable::new(asset).unwrap().body(1)
+    asset.parts_mut().material.stiffness_damping = 0.0;
+    asset.parts_mut().material.mass_damping = 0.0;
+    asset.parts_mut().material.crushing_pressure = pressure;
+    Breakable::uniform(asset).unwrap().body(1)
 }
 
 /// A steel ball of 200 g falls flat on the brick.
@@ -87,8 +87,8 @@ fn what_is_crushed_cracks_less() {
 fn pressures_that_are_none_are_refused() {
     let mut asset = block().asset().as_ref().clone();
     for wrong in [0.0, -1.0, f64::NAN] {
-        asset.material.crushing_pressure = wrong;
-        let refused = Breakable::new(asset.clone()).unwrap_err().to_string();
+        asset.parts_mut().material.crushing_pressure = wrong;
+        let refused = Breakable::uniform(asset.clone()).unwrap_err().to_string();
         assert!(refused.contains("crushing pressure"), "{refused}");
         let body = brick(1e8);
         let mut contact = hit(&body, 1.0);

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use frangible::Asset;
 use frangible::glam::Vec3;
-use frangible::internals::asset::{Embedding, SaveOptions, SurfaceWalls};
+use frangible::internals::asset::{AssetParts, Embedding, SaveOptions, SurfaceWalls};
 
 use crate::common::{Size, drawn_surface, synthetic_asset};
 
@@ -18,21 +18,21 @@ fn seeds() -> [(&'static str, Asset, SaveOptions); 5] {
             modes,
         })
     };
-    let mut drawn = Asset {
+    let mut drawn = Asset::from_parts(AssetParts {
         render: Some(drawn_surface()),
-        ..asset(1, 10, 1, 2)
-    };
-    let walls = |number: f32| vec![number; drawn.surface.triangles.len()];
-    drawn.surface.walls = SurfaceWalls {
+        ..asset(1, 10, 1, 2).into_parts()
+    });
+    let walls = |number: f32| vec![number; drawn.surface().triangles.len()];
+    drawn.parts_mut().surface.walls = SurfaceWalls {
         thickness: walls(0.004),
         stiffening: walls(0.0),
         margin: walls(f32::INFINITY),
     };
-    drawn.modes.residual_modes = 1;
+    drawn.parts_mut().modes.residual_modes = 1;
     // Where no point has an offset, a compact file has none either.
     let mut unmoved = asset(1, 10, 1, 1).with_compact_shapes();
-    let Embedding { tets, nodes } = &mut unmoved.embedding;
-    let points = tets.iter_mut().chain(nodes);
+    let Embedding { tets, nodes } = unmoved.parts_mut().embedding;
+    let points = tets.iter_mut().chain(nodes.iter_mut());
     points.for_each(|point| point.offset = Vec3::ZERO);
     [
         ("unmoved", unmoved, SaveOptions::compact()),

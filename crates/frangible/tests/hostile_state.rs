@@ -17,7 +17,7 @@ fn kind() -> Breakable {
         elements: 3,
         modes: 2,
     });
-    Breakable::new(asset).unwrap()
+    Breakable::uniform(asset).unwrap()
 }
 
 /// A state whose cracks cut these tetrahedra, with numbers that follow from `k`.
@@ -55,7 +55,7 @@ fn state(cracks: &[Vec<u32>], k: u32) -> Vec<u8> {
 #[test]
 fn states_that_no_impact_left_are_refused_or_can_be_used() {
     let kind = kind();
-    let tets = kind.asset().fracture.tets.len() as u32;
+    let tets = kind.asset().fracture().tets.len() as u32;
     let mut used = 0;
     for k in 0..200_u32 {
         let step = 1 + k % 7;

@@ -59,7 +59,7 @@ fn soft_blows_hold_and_hard_ones_break() {
                 (block(), block_hit(0.05), block_hit(20.0)),
                 (shelf(), shelf_hit(0.05), shelf_hit(20.0)),
             ] {
-                let name = format!("{}, {model}, seed {seed}", kind.asset().name);
+                let name = format!("{}, {model}, seed {seed}", kind.asset().name());
                 let held = strike(kind, seed, soft.clone(), &config);
                 assert!(
                     matches!(held, Outcome::Held { margin, state: None, .. } if margin > 1.0),
@@ -123,12 +123,12 @@ fn bad_contacts_are_refused_and_nothing_comes_of_nothing() {
 #[test]
 fn a_body_without_modes_holds() {
     let mut asset = (**block().asset()).clone();
-    asset.modes.eigenvalues.clear();
-    asset.modes.shapes.clear();
-    asset.modes.peak_stress.clear();
-    asset.modes.residual_modes = 0;
-    asset.bounds = StressBounds::default();
-    let body = Breakable::new(asset).unwrap().body(1);
+    asset.parts_mut().modes.eigenvalues.clear();
+    asset.parts_mut().modes.shapes.clear();
+    asset.parts_mut().modes.peak_stress.clear();
+    asset.parts_mut().modes.residual_modes = 0;
+    *asset.parts_mut().bounds = StressBounds::default();
+    let body = Breakable::uniform(asset).unwrap().body(1);
     let pulse = Blast {
         origin: Vec3::Z,
         impulse: 200.0,

@@ -14,17 +14,17 @@ fn nothing_breaks_from_merely_lying_there() {
     let config = FractureConfig::default();
     for kind in [pane(), block()] {
         let asset = kind.asset();
-        let positions = asset.fracture.positions.iter().copied();
+        let positions = asset.fracture().positions.iter().copied();
         let lowest = positions.min_by(|a, b| a.z.total_cmp(&b.z)).unwrap();
         let force = Force {
             point: lowest,
-            force: Vec3::Z * (9.81 * asset.mass.mass) as f32,
+            force: Vec3::Z * (9.81 * asset.mass().mass) as f32,
         };
         let outcome = rest(&kind.body(1), &[force], GRAVITY, &config).unwrap();
         let Outcome::Held { margin, report, .. } = outcome else {
-            panic!("{} broke under its own weight", asset.name);
+            panic!("{} broke under its own weight", asset.name());
         };
-        assert!(margin > 5.0, "{}: margin {margin}", asset.name);
+        assert!(margin > 5.0, "{}: margin {margin}", asset.name());
         assert_eq!(report.looked_at, LookedAt::Impulses);
     }
 }

@@ -18,6 +18,7 @@ mod places;
 mod principal;
 mod refuse;
 mod rigid;
+mod scatter;
 mod state;
 mod steps;
 mod two_bodies;

@@ -14,10 +14,10 @@ fn as_before(portion: &Portion) -> Elastic {
         of.iter().map(|&i| points[i as usize]).collect()
     };
     Elastic {
-        analysis: root.analysis.clone(),
-        tets: pick(&root.embedding.tets, portion.tets()),
-        nodes: pick(&root.embedding.nodes, portion.nodes()),
-        modes: root.modes.clone(),
+        analysis: root.analysis().clone(),
+        tets: pick(&root.embedding().tets, portion.tets()),
+        nodes: pick(&root.embedding().nodes, portion.nodes()),
+        modes: root.modes().clone(),
     }
 }
 
@@ -40,7 +40,7 @@ fn check(parent: &Body, fracture: &Fracture, breaks: &mut [usize; 4]) {
     let generation = parent.generation() as usize;
     breaks[generation] += 1;
     assert!(fracture.report.volume_error.abs() < 1e-9);
-    let whole = &parent.asset().mass;
+    let whole = &parent.asset().mass();
     let mass: f64 = fracture.fragments.iter().map(|f| f.mass.mass).sum();
     let moments = fracture
         .fragments
@@ -55,7 +55,7 @@ fn check(parent: &Body, fracture: &Fracture, breaks: &mut [usize; 4]) {
     for (number, piece) in bodies_of(parent, fracture) {
         let fragment = &fracture.fragments[number];
         assert_eq!(piece.generation(), parent.generation() + 1);
-        assert!((piece.asset().mass.mass / fragment.mass.mass - 1.0).abs() < 1e-12);
+        assert!((piece.asset().mass().mass / fragment.mass.mass - 1.0).abs() < 1e-12);
         let at = fragment.mesh.positions[0];
         let toward = -at.normalize_or(Vec3::X);
         let hit = Contact::strike(at, toward, 40.0, bodies::steel_ball(0.4));
@@ -97,14 +97,17 @@ fn pieces_share_the_mesh_and_have_their_own_part_of_it() {
             continue;
         };
         let portions = fracture.portions(&body, |_, _| true);
-        let mut owner = vec![None; body.asset().fracture.tets.len()];
+        let mut owner = vec![None; body.asset().fracture().tets.len()];
         for (number, portion) in portions.iter().enumerate() {
             for &e in portion.as_ref().expect("it was wanted").tets() {
                 assert_eq!(owner[e as usize].replace(number), None, "tetrahedron {e}");
             }
         }
         for (_, piece) in bodies_of(&body, &fracture) {
-            assert!(Arc::ptr_eq(&piece.asset().fracture, &body.asset().fracture));
+            assert!(Arc::ptr_eq(
+                piece.asset().fracture(),
+                body.asset().fracture()
+            ));
             for e in piece.weak_tets() {
                 assert!(body.weak_tets().binary_search(e).is_ok());
                 assert_eq!(piece.strength(*e).to_bits(), body.strength(*e).to_bits());
@@ -192,7 +195,7 @@ fn crumbs_stay_with_a_cracked_body_as_its_configuration_says() {
     };
     body.set_state(*state.unwrap()).unwrap();
     let nodes = |config| Portion::of_cracked(&body, config).unwrap().nodes().len();
-    assert_eq!(nodes(&together), body.asset().fracture.positions.len());
+    assert_eq!(nodes(&together), body.asset().fracture().positions.len());
     assert!(nodes(&default) < nodes(&together));
     together.crumb_share = 2.0;
     assert!(Portion::of_cracked(&body, &together).is_err());

@@ -12,8 +12,8 @@ fn no_flaw_of_any_body_feels_more_than_the_bound() {
     let config = FractureConfig::default();
     for kind in [pane(), block(), shelf()] {
         let asset = &**kind.asset();
-        let elasticity = Elasticity::new(&asset.material).with_green_lagrange(false);
-        let modes = asset.modes.followed();
+        let elasticity = Elasticity::new(asset.material()).with_green_lagrange(false);
+        let modes = asset.modes().followed();
         let bounds = kind.stress_bounds();
         let (mut most, mut moved) = (0.0_f32, 0);
         for mode in 0..modes {
@@ -29,7 +29,7 @@ fn no_flaw_of_any_body_feels_more_than_the_bound() {
                     let gradient = displacement.gradient(asset, &point, 0);
                     let stress = elasticity.state_by(gradient, law).stress;
                     let cluster = bounds.cluster_of_tet[tet as usize] as usize;
-                    let bound = 1e-6 * bounds.stress[cluster * asset.modes.count() + mode];
+                    let bound = 1e-6 * bounds.stress[cluster * asset.modes().count() + mode];
                     let tension = largest_eigenvalue(&stress);
                     assert!(tension <= bound, "mode {mode}: {tension} above {bound}");
                     most = most.max(tension / bound);
@@ -46,11 +46,11 @@ fn no_flaw_of_any_body_feels_more_than_the_bound() {
 fn flaws_are_spread_evenly_over_their_faces() {
     let config = FractureConfig::default();
     let kind = pane();
-    let mesh = &kind.asset().fracture;
+    let mesh = kind.asset().fracture();
     let place = |body: &Body, tet: u32| {
         let (point, law) = body.weak_place(tet, &config, &[]);
-        let element = kind.asset().analysis.elements[point.element as usize];
-        let nodes = &kind.asset().analysis.nodes;
+        let element = kind.asset().analysis().elements[point.element as usize];
+        let nodes = &kind.asset().analysis().nodes;
         let corners = point.barycentric.iter().zip(element);
         let at: Vec3 = corners.map(|(&l, node)| nodes[node as usize] * l).sum();
         matches!(law, Law::Free(_)).then_some(at + point.offset)

@@ -39,7 +39,7 @@ fn faster(contact: Contact, factor: f32) -> Contact {
 fn more_hits_finish_the_break() {
     let config = FractureConfig::default();
     let (mut body, contact) = cracked(&config);
-    let mut cuts = body.state().faces(&body.asset().fracture).count();
+    let mut cuts = body.state().faces(body.asset().fracture()).count();
     for blow in 1..=40 {
         let outcome = strike(
             &mut body,
@@ -49,7 +49,7 @@ fn more_hits_finish_the_break() {
         if pieces(&outcome) > 1 {
             return;
         }
-        let now = body.state().faces(&body.asset().fracture).count();
+        let now = body.state().faces(body.asset().fracture()).count();
         assert!(now >= cuts, "cracks have healed");
         cuts = now;
     }
@@ -108,10 +108,10 @@ fn a_state_survives_its_bytes_and_foreign_ones_are_refused() {
             impact(&body, &[block_hit(0.01)], &config).unwrap();
         }
     }
-    let last = block().asset().fracture.tets.len() as u32 - 1;
+    let last = block().asset().fracture().tets.len() as u32 - 1;
     let state = BodyState::from_bytes(&foreign(last)).unwrap();
     let mut pane = pane().body(1);
-    assert!(pane.asset().fracture.tets.len() as u32 <= last);
+    assert!(pane.asset().fracture().tets.len() as u32 <= last);
     assert!(matches!(pane.set_state(state), Err(InputError::State(_))));
 }
 

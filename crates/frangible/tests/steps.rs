@@ -13,11 +13,11 @@ fn however_slowly_a_contact_approaches_its_steps_are_few() {
         elements: 3,
         modes: 2,
     });
-    for eigenvalue in &mut asset.modes.eigenvalues {
+    for eigenvalue in &mut asset.parts_mut().modes.eigenvalues {
         // 10 kHz: a contact of a second lasts as many periods.
         *eigenvalue *= 1e4;
     }
-    let body = Breakable::new(asset).unwrap().body(1);
+    let body = Breakable::uniform(asset).unwrap().body(1);
     for config in [
         FractureConfig::default(),
         FractureConfig::with_given_impulses(),

@@ -19,7 +19,7 @@ fn met(body: &Body, here: Place, other: &Body, there: Place, speed: f32) -> Cont
     };
     let config = FractureConfig::default();
     let striker = Striker::flexible(other, &bare(there, Striker::rigid()), &config).unwrap();
-    assert!(body.asset().mass.mass > 0.0);
+    assert!(body.asset().mass().mass > 0.0);
     bare(here, striker)
 }
 
@@ -31,11 +31,9 @@ fn blow(body: &Body, contact: Contact) -> Blow {
 /// The kind without damping.
 fn undamped(kind: &Breakable) -> Breakable {
     let mut asset: Asset = Asset::clone(kind.asset());
-    (
-        asset.material.stiffness_damping,
-        asset.material.mass_damping,
-    ) = (0.0, 0.0);
-    Breakable::new(asset).unwrap()
+    let material = asset.parts_mut().material;
+    (material.stiffness_damping, material.mass_damping) = (0.0, 0.0);
+    Breakable::uniform(asset).unwrap()
 }
 
 /// Places of the three bodies: on a wall, at a corner, on a face, near a free end.
@@ -91,7 +89,7 @@ fn any_pair_finds_one_force_from_both_sides() {
                 let [ra, rb] = [&from_a, &from_b].map(|blow| blow.reports()[0].clone());
                 // Both are integrated in steps of their own: the error of a step is what is left.
                 let apart = |a: f64, b: f64| (a / b - 1.0).abs();
-                let name = (&one.asset().name, &other.asset().name);
+                let name = (one.asset().name(), other.asset().name());
                 assert!(
                     apart(ra.impulse, rb.impulse) < 1e-5,
                     "{name:?}: {ra:?} {rb:?}"
@@ -149,9 +147,9 @@ fn a_stiff_and_heavy_body_strikes_as_one_that_cannot_move() {
     for stiffness in [1e2, 1e4, 1e6] {
         let mut asset = Asset::clone(kind.asset());
         // λ ∝ E/ρ stays as it is, and shapes go with 1/√ρ.
-        let rows = asset.modes.shapes.iter_mut();
+        let rows = asset.parts_mut().modes.shapes.iter_mut();
         rows.for_each(|x| *x /= f32::sqrt(stiffness));
-        let striker = Breakable::new(asset).unwrap().body(2);
+        let striker = Breakable::uniform(asset).unwrap().body(2);
         let mut contact = met(&body, here, &striker, there, 5.0);
         contact.striker.inverse_effective_mass = 0.0;
         let found = blow(contact);
@@ -225,7 +223,7 @@ fn a_striker_at_several_points_swings_as_one_body() {
         (on_block, on_pane)
     });
     let shares = |body: &Body, place: Place| {
-        let mass = &body.asset().mass;
+        let mass = &body.asset().mass();
         let inertia = mass.inertia.inverse();
         let columns = [inertia.x_axis, inertia.y_axis, inertia.z_axis].map(|c| c.as_vec3());
         let velocity = place.1 / (mass.mass as f32).sqrt();

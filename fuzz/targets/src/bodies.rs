@@ -60,7 +60,7 @@ pub(crate) fn small_kinds() -> &'static Kinds {
                 supports,
                 ..BakeSpec::new("small", shape, material)
             };
-            let (asset, _) = bake(&spec, &mut |_| {}).expect("a body");
+            let asset = bake(&spec).expect("a body");
             Breakable::new(asset).expect("a sound body")
         })
     })

@@ -22,7 +22,7 @@ fn body(draw: &mut Draw<'_>, kinds: &Kinds) -> Option<Body> {
         kind = Breakable::new(asset).ok()?;
     }
     if draw.below(8) == 7 {
-        let mut material = kind.asset().material.clone();
+        let mut material = kind.asset().material().clone();
         for (number, least, most) in [
             (&mut material.youngs_modulus, 1e8, 5e11),
             (&mut material.density, 300.0, 2e4),
@@ -87,14 +87,15 @@ fn striker(
         0 => Striker::ball(steel, draw.size(0.01, 2.0), draw.size(1e-3, 0.1)),
         1 => Striker::fixed(steel),
         2 => Striker::rigid(),
-        3 => Striker {
-            contact_modulus: draw.size(1e6, 1e12) as f32,
-            inverse_effective_mass: draw.size(1e-3, 1e4) as f32,
-            curvature_radius: draw.size(1e-4, 10.0) as f32,
-            restitution: draw.between(0.0, 1.0) as f32,
-            modal_duration: draw.size(1e-6, 1e-2) as f32,
-            ..Striker::rigid()
-        },
+        3 => {
+            let mut striker = Striker::rigid();
+            striker.contact_modulus = draw.size(1e6, 1e12) as f32;
+            striker.inverse_effective_mass = draw.size(1e-3, 1e4) as f32;
+            striker.curvature_radius = draw.size(1e-4, 10.0) as f32;
+            striker.restitution = draw.between(0.0, 1.0) as f32;
+            striker.modal_duration = draw.size(1e-6, 1e-2) as f32;
+            striker
+        }
         _ => {
             let other = kinds[draw.below(3)].body(u64::from(draw.byte()));
             let mut felt = contact.clone();
@@ -153,7 +154,7 @@ fn check(body: &Body, outcome: &Outcome) {
         Outcome::Broke(fracture) => fracture,
         other => panic!("an outcome that nobody knows: {other:?}"),
     };
-    let whole = &body.asset().mass;
+    let whole = &body.asset().mass();
     let (mut mass, mut volume) = (0.0, 0.0);
     assert!(!fracture.fragments.is_empty());
     for fragment in &fracture.fragments {

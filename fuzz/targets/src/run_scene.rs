@@ -38,7 +38,7 @@ pub fn run_scene(bytes: &[u8]) {
         return;
     };
     for broke in &run.breaks {
-        let whole = baked[broke.body].asset.mass.mass;
+        let whole = baked[broke.body].asset.mass().mass;
         let mass: f64 = broke.masses.iter().sum();
         assert!((mass / whole - 1.0).abs() < 1e-6, "{mass} kg of {whole}");
         assert!(!format!("{:?}", broke.report).contains("NaN"));

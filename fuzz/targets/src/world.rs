@@ -1,10 +1,8 @@
 //! A world of breakable bodies lives through whatever a game does to it: no panic, finite poses, no mass made or lost.
 
-use std::sync::Arc;
-
 use frangible::{Striker, impact};
 use frangible_bake::pieces::{Method, Pieces};
-use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
+use frangible_rapier::rapier3d::dynamics::{RigidBodyBuilder, RigidBodyHandle};
 use frangible_rapier::rapier3d::geometry::SharedShape;
 use frangible_rapier::rapier3d::math::{Pose, Rotation, Vector};
 use frangible_rapier::{
@@ -142,9 +140,15 @@ impl Play {
         match draw.below(16) {
             0..=2 if self.several || world.breakables().next().is_none() => {
                 let body = self.kinds[draw.below(3)].body(u64::from(draw.byte()));
-                let mass = body.asset().mass.mass;
+                let mass = body.asset().mass().mass;
                 let (pose, moves, spins) = (pose(draw), vector(draw, 15.0), vector(draw, 10.0));
-                if let Ok(handle) = world.insert_breakable(body, pose, moves, spins) {
+                if let Ok(handle) = world.insert(
+                    body,
+                    RigidBodyBuilder::dynamic()
+                        .pose(pose)
+                        .linvel(moves)
+                        .angvel(spins),
+                ) {
                     self.bodies.push(handle);
                     self.mass += mass;
                 }
@@ -256,7 +260,7 @@ impl Play {
         for event in made {
             let fragments = &event.fracture.fragments;
             let mass: f64 = fragments.iter().map(|f| f.mass.mass).sum();
-            let whole = event.asset.mass.mass;
+            let whole = event.asset.mass().mass;
             assert!((mass / whole - 1.0).abs() < 1e-6, "{mass} kg of {whole}");
             for energy in [
                 event.kinetic_before,
@@ -321,7 +325,7 @@ fn run(data: &[u8], kinds: &'static Kinds) {
             _ => Method::ParentModes,
         });
         (pieces.elements, pieces.modes) = (Some(40), 8);
-        world.set_piece_model(Some(Arc::new(pieces)));
+        world = world.with_piece_model(pieces);
     }
     let floor = world.insert_fixed_half_space(Vector::NEG_Y, Vector::Y, SurfaceProperties::STONE);
     floor.expect("a floor");

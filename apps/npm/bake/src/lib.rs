@@ -8,7 +8,7 @@ use frangible::internals::asset::SaveOptions;
 use frangible::{Asset, Body, Fracture, Material};
 use frangible_bake::frangible_mesh::{InputMaterial, InputMesh, PartChoice, Similarity};
 use frangible_bake::pieces::{Method, PieceError, Pieces};
-use frangible_bake::{BakeError, BakeSpec, ImportOptions, Progress, import_mesh};
+use frangible_bake::{BakeError, BakeSpec, Baked, ImportOptions, Progress, import_mesh};
 
 /// Settings for baking a mesh.
 #[derive(Clone, Debug)]
@@ -101,7 +101,7 @@ pub fn bake(
         render: imported.render,
         ..BakeSpec::new(wish.name.clone(), imported.shape, wish.material.clone())
     };
-    let (asset, report) = frangible_bake::bake(&spec, tell)?;
+    let Baked { asset, report } = frangible_bake::bake_with(&spec, tell)?;
     let Similarity { scale, shift } = imported.similarity;
     let shift = shift - report.centre;
     Ok((asset, Similarity { scale, shift }))

@@ -80,7 +80,7 @@ fn lightly_baked(name: &str) -> Result<(Scene, Vec<BakedBody>), SceneError> {
                 _ => body.resolution = Some(tetrahedra),
             }
         }
-        match bake(&scene, &mut |_| {}) {
+        match bake(&scene) {
             Err(SceneError::ThinWalls { needed, .. }) if needed > tetrahedra => tetrahedra = needed,
             baked => return Ok((scene, baked?)),
         }

@@ -19,7 +19,7 @@ pub(crate) struct Cut {
 /// All cuts of a trace.
 pub(crate) fn cuts<'a>(asset: &'a Asset, trace: &'a CrackTrace) -> impl Iterator<Item = Cut> + 'a {
     trace.cracks.iter().flatten().filter_map(|element| {
-        let x = asset.fracture.corners(element.tet as usize);
+        let x = asset.fracture().corners(element.tet as usize);
         let s = element.values;
         let mut points = Vec::new();
         for (i, j) in [(0, 1), (1, 2), (2, 3), (3, 0), (0, 2), (1, 3)] {

@@ -91,7 +91,7 @@ struct Break {
 /// Breaks a pane once per seed.
 fn breaks(asset: &Arc<Asset>, seeds: u64, speed: f64, options: &Options) -> Result<Vec<Break>> {
     let turned = options.get("turned", 0.0).to_radians();
-    let fields = Fields::of_material(&asset.material);
+    let fields = Fields::of_material(asset.material());
     let kind = Breakable::new(Arc::clone(asset))?.with_fields(fields)?;
     let steel = Material::preset("steel")?;
     let config = FractureConfig::default();
@@ -157,7 +157,7 @@ fn hit(seeds: u64, speed: f64, options: &Options) -> Result<()> {
     println!(
         "{} breaks at {speed} m/s, {} tetrahedra: pieces {:.1}, cracks {:.1}, area {:.4} m²",
         seeds,
-        asset.fracture.tets.len(),
+        asset.fracture().tets.len(),
         mean(breaks.iter().map(|b| b.pieces)),
         mean(breaks.iter().map(|b| b.cracks)),
         mean(areas.iter().copied()),

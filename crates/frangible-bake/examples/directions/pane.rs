@@ -38,7 +38,7 @@ pub(crate) fn pane(options: &Options) -> Result<Asset> {
     {
         spec.fracture = Some(spec.shape.size_for(tets)?);
     }
-    Ok(bake(&spec, &mut |_| {})?.0)
+    Ok(bake(&spec)?)
 }
 
 /// A prism over a polygon of so many corners, the first of them at `turned`, rad, from the diagonal: a square of the side [`SIDE`], or
@@ -85,19 +85,18 @@ pub(crate) fn uniform(mut asset: Asset) -> Asset {
         ];
         (stretch, bend.map(|u| u.map(|c| c / half)))
     };
-    asset.modes.shapes.clear();
-    for &node in &asset.analysis.nodes {
+    let parts = asset.parts_mut();
+    parts.modes.shapes.clear();
+    for &node in &parts.analysis.nodes {
         let (stretch, bend) = shapes(node);
         for axis in 0..3 {
-            asset
-                .modes
-                .shapes
-                .extend(stretch.iter().chain(&bend).map(|u| u[axis]));
+            let row = stretch.iter().chain(&bend).map(|u| u[axis]);
+            parts.modes.shapes.extend(row);
         }
     }
-    asset.modes.eigenvalues = vec![1e6; 6];
-    asset.modes.residual_modes = 0;
-    asset.modes.peak_stress = vec![0.0; 6];
-    asset.bounds = Default::default();
+    asset.parts_mut().modes.eigenvalues = vec![1e6; 6];
+    asset.parts_mut().modes.residual_modes = 0;
+    asset.parts_mut().modes.peak_stress = vec![0.0; 6];
+    *asset.parts_mut().bounds = Default::default();
     asset
 }

@@ -15,8 +15,8 @@ use crate::{Options, Result};
 /// Prints the paths and speeds of single cracks.
 pub(crate) fn single(options: &Options) -> Result<()> {
     let mut asset = uniform(pane(options)?);
-    asset.material.roughness_amplitude = options.get("rough", 0.0);
-    asset.material.branching_constant = f64::INFINITY;
+    asset.parts_mut().material.roughness_amplitude = options.get("rough", 0.0);
+    asset.parts_mut().material.branching_constant = f64::INFINITY;
     let asset = Arc::new(asset);
     let bends = options.get("bend", 0.0) > 0.0;
     let starts = options.get("starts", 8.0) as usize;
@@ -25,7 +25,7 @@ pub(crate) fn single(options: &Options) -> Result<()> {
     if options.get("planar", 0.0) > 0.0 {
         config.model = frangible::internals::Model::Paper;
     }
-    let material = &asset.material;
+    let material = asset.material();
     let rayleigh = material.rayleigh_speed();
     println!(
         "angle  turned: rms, most of a path; off the line, mm in 100 mm; speed over what it should be: mean, least, most; arrival scatter"
@@ -86,7 +86,7 @@ fn run(
     bends: bool,
     speed: f64,
 ) -> Vec<Run> {
-    let mesh = &asset.fracture;
+    let mesh = asset.fracture();
     let near = (0..mesh.tets.len()).min_by(|&a, &b| {
         mesh.centroid(a)
             .distance(place)
@@ -104,11 +104,11 @@ fn run(
     };
     let mut fields = Fields::default();
     fields.of_tet = of_tet;
-    let kind = Breakable::new(Arc::clone(asset))
+    let kind = Breakable::uniform(Arc::clone(asset))
         .and_then(|kind| kind.with_fields(fields))
         .expect("a pane");
     let body = kind.body(1);
-    let material = &asset.material;
+    let material = asset.material();
     // Tension σ across the crack, which runs at the angle.
     let (young, poisson) = (material.youngs_modulus, material.poisson_ratio);
     let stress = over * material.strength;

@@ -44,7 +44,7 @@ impl Lattice {
         if portion.supported().is_empty() {
             held.clear();
         }
-        let elasticity = Elasticity::from(&portion.root().material);
+        let elasticity = Elasticity::from(portion.root().material());
         let system = assemble_supported_cover(&cover, &elasticity, &body, &held);
         let mut embedding = cover.embedding(&body);
         embedding.tets.truncate(portion.tets().len());

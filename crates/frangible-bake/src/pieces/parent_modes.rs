@@ -64,7 +64,7 @@ fn restricted(
     Vec<EmbeddedPoint>,
     Vec<u32>,
 ) {
-    let whole = &asset.analysis;
+    let whole = asset.analysis();
     let (mut element, mut node) = (
         vec![u32::MAX; whole.elements.len()],
         vec![u32::MAX; whole.nodes.len()],
@@ -98,7 +98,7 @@ fn restricted(
         let element = number(point.element, &mut mesh);
         tets.push(EmbeddedPoint { element, ..*point });
         first = first.min(element);
-        for v in portion.root().fracture.tets[e as usize] {
+        for v in portion.root().fracture().tets[e as usize] {
             if let Ok(place) = portion.nodes().binary_search(&v)
                 && carrier[place] == u32::MAX
             {
@@ -106,7 +106,7 @@ fn restricted(
             }
         }
     }
-    let positions = &portion.root().fracture.positions;
+    let positions = &portion.root().fracture().positions;
     let numbered = portion.nodes().iter().zip(&carrier);
     let nodes = numbered.map(|(&v, &element)| {
         // Nodes whose tetrahedra are all cut: few, and beside the others.
@@ -133,12 +133,12 @@ fn trial_shapes(
     centre: DVec3,
 ) -> Block {
     let rigid = if held { 0 } else { 6 };
-    let modes = asset.modes.count().min(MOST);
+    let modes = asset.modes().count().min(MOST);
     Block::from_fn(3 * old.len(), rigid + modes, |row, column| {
         let (node, axis) = (row / 3, row % 3);
         if column >= rigid {
             let dof = 3 * old[node] as usize + axis;
-            return f64::from(asset.modes.row(dof)[column - rigid]);
+            return f64::from(asset.modes().row(dof)[column - rigid]);
         }
         let unit = DVec3::AXES[column % 3];
         if column < 3 {
@@ -162,7 +162,7 @@ fn integrals(
     const SAMPLES: usize = 2000;
     let m = trial.columns();
     let (mut stiffness, mut mass) = (Block::zeros(m, m), Block::zeros(m, m));
-    let mesh = &portion.root().fracture;
+    let mesh = portion.root().fracture();
     // Some tetrahedra stand for many: the shapes vary over the coarse elements only.
     // One of each run, but not always the same: meshes repeat themselves every few tetrahedra.
     let stride = tets.len().div_ceil(SAMPLES).max(1);
@@ -179,7 +179,10 @@ fn integrals(
     let tets: Vec<EmbeddedPoint> = chosen.iter().map(|&i| tets[i]).collect();
     // Those left out, and those that are cut, count with the others.
     let scale = portion.mass().volume / volumes.iter().sum::<f64>();
-    let (lambda, mu) = (asset.material.lame_lambda(), asset.material.shear_modulus());
+    let (lambda, mu) = (
+        asset.material().lame_lambda(),
+        asset.material().shear_modulus(),
+    );
     for (points, volumes) in tets.chunks(AT_ONCE).zip(volumes.chunks(AT_ONCE)) {
         let mut strains = Block::zeros(7 * points.len(), m);
         let mut places = Block::zeros(3 * points.len(), m);
@@ -189,7 +192,7 @@ fn integrals(
             let weights = point.shape_values();
             let gradients = point.shape_gradients(&analysis.barycentric_gradients[element]);
             let weight = (volume * scale).sqrt();
-            let by_mass = weight * asset.material.density.sqrt();
+            let by_mass = weight * asset.material().density.sqrt();
             let (shear, both) = (weight * mu.sqrt(), weight * (2.0 * mu).sqrt());
             let bulk = weight * lambda.abs().sqrt();
             for column in 0..m {

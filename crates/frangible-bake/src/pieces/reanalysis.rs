@@ -24,7 +24,7 @@ pub fn reanalysis(
     let places: Vec<_> = portion
         .nodes()
         .iter()
-        .map(|&v| portion.root().fracture.positions[v as usize].as_dvec3())
+        .map(|&v| portion.root().fracture().positions[v as usize].as_dvec3())
         .collect();
     let held: Vec<[bool; 3]> = if portion.supported().is_empty() {
         Vec::new()

@@ -13,7 +13,7 @@ use frangible::{Asset, InputError};
 pub use paint::{Channel, Paint, from_paint};
 pub use zone::{Patch, Zone};
 
-/// Makes fields from patches; where patches overlap, the factor of the later one applies.
+/// Makes fields from patches, with the scatter of the asset's material; where patches overlap, the factor of the later one applies.
 ///
 /// A tetrahedron belongs to a patch if its centre does, so a scored line needs a radius of about the edge length of the fracture mesh to be
 /// continuous.
@@ -21,7 +21,7 @@ pub use zone::{Patch, Zone};
 /// # Errors
 /// A zone has a value that is not finite, a radius that is not positive, or a zero normal.
 pub fn from_patches(asset: &Asset, patches: &[Patch]) -> Result<Fields, InputError> {
-    patched(Fields::default(), asset, patches)
+    patched(Fields::of_material(asset.material()), asset, patches)
 }
 
 /// Applies patches to existing fields; see [`from_patches`].
@@ -35,9 +35,9 @@ pub fn patched(mut fields: Fields, asset: &Asset, patches: &[Patch]) -> Result<F
     }
     fields
         .of_tet
-        .resize(asset.fracture.tets.len(), Factors::ONE);
+        .resize(asset.fracture().tets.len(), Factors::ONE);
     for (tet, factors) in fields.of_tet.iter_mut().enumerate() {
-        let p = asset.fracture.centroid(tet);
+        let p = asset.fracture().centroid(tet);
         let over = patches.iter().filter(|patch| patch.zone.contains(p));
         over.for_each(|patch| patch.paint(factors));
     }

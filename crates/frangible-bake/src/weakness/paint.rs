@@ -123,11 +123,11 @@ impl Paint {
 pub fn from_paint(asset: &Asset, paint: &[Paint]) -> Result<Fields, InputError> {
     paint.iter().try_for_each(Paint::check)?;
     if paint.is_empty() {
-        return Ok(Fields::default());
+        return Ok(Fields::of_material(asset.material()));
     }
-    let drawn = asset.render.as_ref();
+    let drawn = asset.render();
     let Some(drawn) = drawn.filter(|r| !r.triangles.is_empty() && !r.colors.is_empty()) else {
-        let name = &asset.name;
+        let name = asset.name();
         return Err(InputError::Field(format!(
             "`{name}` has no vertex colours to take the weakness from; export its mesh with vertex colours and bake it again"
         )));

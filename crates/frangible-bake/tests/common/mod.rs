@@ -18,8 +18,8 @@ pub(crate) fn breakable(shape: Shape, material: &str, tets: f64, modes: usize) -
         fracture: Some(fracture),
         ..BakeSpec::new("body", shape, Material::preset(material).expect("a preset"))
     };
-    let (asset, _) = bake(&spec, &mut |_| {}).expect("a baked body");
-    Breakable::new(Arc::new(asset)).expect("a sound asset")
+    let asset = bake(&spec).expect("a baked body");
+    Breakable::uniform(Arc::new(asset)).expect("a sound asset")
 }
 
 /// All of a body as a portion.

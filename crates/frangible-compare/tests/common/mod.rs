@@ -14,7 +14,7 @@ pub(crate) fn baked(shape: Shape, material: Material, tets: f64) -> Arc<Asset> {
         fracture: Some(shape.size_for(tets).expect("a size")),
         ..BakeSpec::new("body", shape, material)
     };
-    Arc::new(bake(&spec, &mut |_| {}).expect("a baked body").0)
+    Arc::new(bake(&spec).expect("a baked body"))
 }
 
 pub(crate) fn preset(name: &str) -> Material {
@@ -47,7 +47,7 @@ pub(crate) struct Case {
 impl Case {
     pub(crate) fn new(asset: &Arc<Asset>, contact: Contact) -> Self {
         Self {
-            body: Breakable::new(Arc::clone(asset))
+            body: Breakable::uniform(Arc::clone(asset))
                 .expect("a sound asset")
                 .body(1),
             contacts: vec![contact],

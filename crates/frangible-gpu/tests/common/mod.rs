@@ -31,7 +31,7 @@ fn kind(name: &str, shape: Shape, material: &str, analysis: f64) -> Breakable {
         fracture: Some(shape.size_for(6000.0).unwrap()),
         ..BakeSpec::new(name, shape, material)
     };
-    Breakable::new(bake(&spec, &mut |_| {}).unwrap().0).unwrap()
+    Breakable::uniform(bake(&spec).unwrap()).unwrap()
 }
 
 /// Drinking glass, pane of 0.3 m, brick.
@@ -65,11 +65,11 @@ impl Numbers {
 
     /// A blow on a random place of the surface, from outside, at a speed, m/s.
     pub(crate) fn blow(&mut self, asset: &Asset, speed: f64) -> Contact {
-        let triangle = (self.next() * asset.surface.triangles.len() as f64) as usize;
-        let corner = asset.surface.triangles[triangle][0];
-        let point = asset.fracture.positions[corner as usize];
+        let triangle = (self.next() * asset.surface().triangles.len() as f64) as usize;
+        let corner = asset.surface().triangles[triangle][0];
+        let point = asset.fracture().positions[corner as usize];
         let tilt = Vec3::from_array(std::array::from_fn(|_| self.next() as f32 - 0.5));
-        let normal = (tilt - asset.surface.normals[triangle][0]).normalize();
+        let normal = (tilt - asset.surface().normals[triangle][0]).normalize();
         let striker = self.striker();
         Contact::collision(asset, point, normal, speed, striker)
     }
@@ -80,15 +80,9 @@ impl Numbers {
             let steel = Material::preset("steel").unwrap();
             let mass = 0.02 + 0.2 * self.next();
             let radius = (mass / steel.density * 0.75 / std::f64::consts::PI).cbrt();
-            Striker {
-                restitution,
-                ..Striker::ball(&steel, mass, radius)
-            }
+            Striker::ball(&steel, mass, radius).with_restitution(restitution)
         } else {
-            Striker {
-                restitution,
-                ..Striker::fixed(&Material::preset("stone").unwrap())
-            }
+            Striker::fixed(&Material::preset("stone").unwrap()).with_restitution(restitution)
         }
     }
 }
@@ -135,11 +129,12 @@ pub(crate) fn uneven(kind: &Breakable) -> Breakable {
 /// A copy of a kind that is weak only at its outermost 3 mm along x and y: at the narrow edges of a pane.
 pub(crate) fn weak_rim(kind: &Breakable) -> Breakable {
     let asset: &Arc<Asset> = kind.asset();
-    let positions = asset.fracture.positions.iter();
+    let positions = asset.fracture().positions.iter();
     let half = positions.fold(Vec3::ZERO, |most, p| most.max(p.abs()));
     let fields = frangible::internals::Fields::from_function(asset, |p| {
         let rim = p.abs().truncate().cmpgt(half.truncate() - 0.003).any();
         frangible::internals::Factors::of_strength(if rim { 1.0 } else { 30.0 })
-    });
+    })
+    .with_weibull_modulus(0.0);
     kind.clone().with_fields(fields).unwrap()
 }

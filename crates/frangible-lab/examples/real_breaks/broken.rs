@@ -51,8 +51,8 @@ impl Broken {
         let Outcome::Broke(fracture) = outcome else {
             return None;
         };
-        let (mesh, report) = (&subject.kind.asset().fracture, &fracture.report);
-        let whole = subject.kind.asset().mass.volume;
+        let (mesh, report) = (subject.kind.asset().fracture(), &fracture.report);
+        let whole = subject.kind.asset().mass().volume;
         let mut pieces: Vec<(f64, Vec3)> = fracture
             .fragments
             .iter()

@@ -108,7 +108,7 @@ fn subject(
 ) -> Result<Subject, Box<dyn Error>> {
     let mut scene = scene(name)?;
     change(&mut scene);
-    let bodies = bake(&scene, &mut |_| {})?;
+    let bodies = bake(&scene)?;
     let first = first_break(&scene, &bodies, &mut |_| {})?
         .ok_or_else(|| format!("{name}, {blow}: nothing breaks"))?;
     let spec = &scene.bodies[0];
@@ -137,8 +137,8 @@ fn ice_ball(speed: f32) -> Result<Subject, Box<dyn Error>> {
         modes: 200,
         ..BakeSpec::new("ball of ice", Shape::Solid(shape), ice)
     };
-    let (asset, _) = frangible_bake::bake(&spec, &mut |_| {})?;
-    let impulse = asset.mass.mass as f32 * speed;
+    let asset = frangible_bake::bake(&spec)?;
+    let impulse = asset.mass().mass as f32 * speed;
     let lowest = Vec3::new(0.0, 0.0, -0.03);
     let contact = Contact {
         impulse,
@@ -152,7 +152,7 @@ fn ice_ball(speed: f32) -> Result<Subject, Box<dyn Error>> {
     ));
     Ok(Subject {
         title: format!("ball of ice, 60 mm wide: thrown on stone at {speed} m/s"),
-        kind: Breakable::new(Arc::new(asset))?,
+        kind: Breakable::uniform(Arc::new(asset))?,
         contacts: vec![contact],
         config: FractureConfig::default(),
         features,

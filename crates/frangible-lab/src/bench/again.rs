@@ -84,7 +84,7 @@ pub fn measure(
         for body in &mut scene.bodies {
             (body.resolution, body.modes) = (Some(SIZE[0]), SIZE[1]);
         }
-        let baked = bake(&scene, &mut |_| {})?;
+        let baked = bake(&scene)?;
         let best = best_of(name, runs, || {
             play_as_game(&scene, &baked, plan, &mut |_| {})
         })?;
@@ -117,7 +117,7 @@ pub fn measure(
 /// Plays a heap of all pieces that there are, in one step per frame.
 fn heap(runs: usize, plan: GamePlan) -> Result<Heap, BenchError> {
     let scene = scene(HEAP)?;
-    let baked = bake(&scene, &mut |_| {})?;
+    let baked = bake(&scene)?;
     let plan = GamePlan {
         steps_per_frame: 1,
         crumb_share: FractureConfig::default().crumb_share,

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use frangible::{Asset, Material};
-use frangible_bake::{BakeSpec, Progress, bake};
+use frangible_bake::{BakeSpec, bake_with};
 
 use crate::bench::error::BenchError;
 use crate::bench::subjects::Geometry;
@@ -55,7 +55,7 @@ impl Cache {
         let material = Material::preset(material)?;
         if !self.rebake
             && let Ok(asset) = Asset::load(&path)
-            && asset.material == material
+            && *asset.material() == material
             && let Some(seconds) = fs::read_to_string(&beside)
                 .ok()
                 .and_then(|s| s.trim().parse().ok())
@@ -74,7 +74,7 @@ impl Cache {
             fracture,
             ..BakeSpec::new(name, shape, material)
         };
-        let (asset, report) = bake(&spec, &mut |p: Progress| {
+        let frangible_bake::Baked { asset, report } = bake_with(&spec, |p| {
             progress(&format!("baking {name}: {}", p.stage), p.fraction);
         })?;
         let seconds = report.seconds.iter().map(|(_, s)| s).sum();

@@ -121,7 +121,7 @@ pub struct Findings {
 pub fn measure(cache: &Cache, progress: &mut dyn FnMut(&str, f64)) -> Result<Findings, BenchError> {
     let geometry = || Ok((solid("piggy_bank", PIG_GROWN, PIG_TETS)?, None, None));
     let baked = cache.body("porcelain-pig", MODES, "porcelain", geometry, progress)?;
-    let body = Breakable::new(baked.asset)?.body(1);
+    let body = Breakable::uniform(baked.asset)?.body(1);
     let config = FractureConfig::default();
     progress("game-like contacts", 0.0);
     let game = Source::new(&body, GAME_SPEEDS, 1)?.take(GAME);
@@ -151,10 +151,10 @@ pub fn measure(cache: &Cache, progress: &mut dyn FnMut(&str, f64)) -> Result<Fin
     }
     let asset = body.asset();
     Ok(Findings {
-        tets: asset.fracture.tets.len(),
-        nodes: asset.fracture.positions.len(),
+        tets: asset.fracture().tets.len(),
+        nodes: asset.fracture().positions.len(),
         weak_points: body.weak_tets().len(),
-        modes: asset.modes.count(),
+        modes: asset.modes().count(),
         clock: clock_cost(),
         game: game_timed,
         game_shares: Class::ALL
@@ -185,10 +185,7 @@ impl<'a> Source<'a> {
         Ok(Self {
             asset: body.asset(),
             speeds,
-            stone: Striker {
-                restitution: 0.5,
-                ..Striker::fixed(&Material::preset("stone")?)
-            },
+            stone: Striker::fixed(&Material::preset("stone")?).with_restitution(0.5),
             rng: ChaCha8Rng::seed_from_u64(seed),
         })
     }
@@ -203,7 +200,7 @@ impl<'a> Source<'a> {
     }
 
     fn draw(&mut self) -> Result<Contact, BenchError> {
-        let surface = &self.asset.surface;
+        let surface = self.asset.surface();
         let triangle = (self.uniform() * surface.triangles.len() as f64) as usize;
         let corner = surface.triangles[triangle][0] as usize;
         let inward = -surface.normals[triangle][0];
@@ -217,7 +214,7 @@ impl<'a> Source<'a> {
         } else {
             self.stone.clone()
         };
-        let point: Vec3 = self.asset.fracture.positions[corner];
+        let point: Vec3 = self.asset.fracture().positions[corner];
         Ok(Contact::collision(
             self.asset,
             point,

@@ -164,7 +164,7 @@ struct Blow {
 impl Blow {
     fn of(name: &str) -> Result<Self, BenchError> {
         let scene = scene(name)?;
-        let baked = bake(&scene, &mut |_| {})?;
+        let baked = bake(&scene)?;
         let first = first_break(&scene, &baked, &mut |_| {})?;
         let nothing = || BenchError::NotAsMeant(format!("nothing breaks in the scene `{name}`"));
         let first = first.ok_or_else(nothing)?;
@@ -205,7 +205,7 @@ impl Blow {
         Ok(Row {
             scene: subject.scene.into(),
             points: report.map_or(0, |r| r.weak_points),
-            modes: new.asset().modes.followed(),
+            modes: new.asset().modes().followed(),
             steps: report.map_or(0, |r| r.time_steps),
             cracks: report.map_or(0, |r| r.cracks),
             cut: report.map_or(0, |r| r.arrivals.iter().map(Vec::len).sum()),

@@ -143,7 +143,7 @@ pub fn measure(
             followed: Some(MODES),
             ..BakeSpec::new(name, shape, Material::preset("glass")?)
         };
-        let kind = Breakable::new(bake(&spec, &mut |_| {})?.0)?;
+        let kind = Breakable::uniform(bake(&spec)?)?;
         bodies.push(of_body(
             name,
             &kind,
@@ -187,7 +187,7 @@ fn everywhere(
         fracture,
         ..BakeSpec::new(name, shape, material)
     };
-    let kind = Breakable::new(bake(&spec, &mut |_| {})?.0)?;
+    let kind = Breakable::uniform(bake(&spec)?)?;
     let body = kind.body(0);
     let contacts = [subject.contact(kind.asset(), 1.0)?];
     let mut config = FractureConfig::with_given_impulses();
@@ -215,7 +215,7 @@ fn everywhere(
     Ok(Everywhere {
         name,
         tets: body.weak_tets().len(),
-        analysis_nodes: kind.asset().analysis.nodes.len(),
+        analysis_nodes: kind.asset().analysis().nodes.len(),
         steps: vibration.report.time_steps,
         cpu,
         gpu: best,
@@ -279,9 +279,9 @@ fn of_body(
     }
     Ok(OfBody {
         name,
-        tets: asset.fracture.tets.len(),
+        tets: asset.fracture().tets.len(),
         weak_points: bodies.first().map_or(0, |body| body.weak_tets().len()),
-        analysis_nodes: asset.analysis.nodes.len(),
+        analysis_nodes: asset.analysis().nodes.len(),
         steps: steps / largest.max(1),
         batches,
         why,
@@ -351,10 +351,10 @@ fn time(
 /// A steel ball of 60 g on a place of the surface, from outside.
 fn blow(kind: &Breakable, k: usize, speed: f64) -> Result<Contact, BenchError> {
     let asset = kind.asset();
-    let triangle = (k * 7919 + 13) % asset.surface.triangles.len();
-    let corner = asset.surface.triangles[triangle][0];
-    let point = asset.fracture.positions[corner as usize];
-    let inward: Vec3 = -asset.surface.normals[triangle][0];
+    let triangle = (k * 7919 + 13) % asset.surface().triangles.len();
+    let corner = asset.surface().triangles[triangle][0];
+    let point = asset.fracture().positions[corner as usize];
+    let inward: Vec3 = -asset.surface().normals[triangle][0];
     let ball = steel_ball(0.06)?;
     Ok(Contact::collision(asset, point, inward, speed, ball))
 }

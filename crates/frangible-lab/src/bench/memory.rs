@@ -75,7 +75,7 @@ pub fn measure(
     let asset = count(&mut || loaded = Some(Asset::load(&path)));
     let mut loaded = loaded.transpose()?;
     let mut kind = None;
-    let prepared = count(&mut || kind = loaded.take().map(Breakable::new));
+    let prepared = count(&mut || kind = loaded.take().map(Breakable::uniform));
     let Some(kind) = kind.transpose()? else {
         return Err(BenchError::NotAsMeant(format!(
             "{} was not loaded",
@@ -97,8 +97,8 @@ pub fn measure(
     let assets = kind.asset();
     Ok(OfBody {
         name: subject.name,
-        tets: assets.fracture.tets.len(),
-        analysis_nodes: assets.analysis.nodes.len(),
+        tets: assets.fracture().tets.len(),
+        analysis_nodes: assets.analysis().nodes.len(),
         weak_points: bodies[0].weak_tets().len(),
         file: std::fs::metadata(&path).map_or(0, |about| about.len() as usize),
         compact,
@@ -114,10 +114,10 @@ pub fn measure(
 fn half_changes(asset: &Asset) -> f64 {
     let halved = asset.clone().with_compact_shapes().restressed();
     let peaks = asset
-        .modes
+        .modes()
         .peak_stress
         .iter()
-        .zip(&halved.modes.peak_stress);
+        .zip(&halved.modes().peak_stress);
     peaks
         .map(|(&full, &half)| (f64::from(half) / f64::from(full) - 1.0).abs())
         .fold(0.0, f64::max)

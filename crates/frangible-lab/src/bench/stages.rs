@@ -55,7 +55,7 @@ pub fn small_body() -> Result<Asset, BenchError> {
         }),
         ..BakeSpec::new("pane", shape, Material::preset("glass")?)
     };
-    Ok(bake(&spec, &mut |_| {})?.0)
+    Ok(bake(&spec)?)
 }
 
 /// The small body ready to be hit.
@@ -80,7 +80,7 @@ impl Bench {
     /// # Errors
     /// An asset that the run time refuses.
     pub fn new(asset: Asset) -> Result<Self, BenchError> {
-        let body = Breakable::new(asset)?.body(1);
+        let body = Breakable::uniform(asset)?.body(1);
         let ours = FractureConfig::with_given_impulses();
         let paper = FractureConfig::as_in_the_paper();
         let hit = |speed: f64| {
@@ -103,7 +103,7 @@ impl Bench {
         let asset = body.asset();
         let duration = contact_duration(asset, &load, ours.duration);
         let pulse = pulse(asset, &load, duration, &ours);
-        let motion = respond(&asset.modes, &asset.material, &load.modal_impulse, &pulse);
+        let motion = respond(asset.modes(), asset.material(), &load.modal_impulse, &pulse);
         Ok(Self {
             body,
             ours,
@@ -149,8 +149,8 @@ impl Bench {
     pub fn response(&self) -> Motion {
         let asset = self.body.asset();
         respond(
-            &asset.modes,
-            &asset.material,
+            asset.modes(),
+            asset.material(),
             &self.load.modal_impulse,
             &self.pulse,
         )
@@ -181,10 +181,10 @@ impl Bench {
     #[must_use]
     pub fn stresses(&self, (batch, step): &mut (DisplacementBatch, usize)) -> f32 {
         let asset = self.body.asset();
-        let elasticity = Elasticity::new(&asset.material);
+        let elasticity = Elasticity::new(asset.material());
         let mut peak = 0.0_f32;
         for &e in self.body.weak_tets() {
-            let gradient = batch.gradient(asset, &asset.embedding.tets[e as usize], *step);
+            let gradient = batch.gradient(asset, &asset.embedding().tets[e as usize], *step);
             let stress = elasticity.state(gradient).stress;
             if largest_eigenvalue_bound(&stress) > peak {
                 peak = peak.max(largest_eigenvalue(&stress));

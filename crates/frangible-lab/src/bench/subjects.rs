@@ -261,7 +261,7 @@ impl Subject {
     /// None but a preset that is missing.
     pub fn contact(&self, asset: &Asset, speed: f64) -> Result<Contact, BenchError> {
         let (low, high) = asset
-            .fracture
+            .fracture()
             .positions
             .iter()
             .fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), &p| {
@@ -301,10 +301,7 @@ pub(crate) fn solid(name: &str, grown: f64, tets: usize) -> Result<Shape, BenchE
 pub fn steel_ball(mass: f64) -> Result<Striker, BenchError> {
     let steel = Material::preset("steel")?;
     let radius = (0.75 * mass / steel.density / std::f64::consts::PI).cbrt();
-    Ok(Striker {
-        restitution: 0.5,
-        ..Striker::ball(&steel, mass, radius)
-    })
+    Ok(Striker::ball(&steel, mass, radius).with_restitution(0.5))
 }
 
 #[cfg(test)]

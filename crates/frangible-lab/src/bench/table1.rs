@@ -137,7 +137,7 @@ pub fn measure(
     let geometry = || subject.geometry();
     let baked = cache.body(subject.file(), MODES, subject.material, geometry, progress)?;
     let contact = subject.contact(&baked.asset, subject.blow.speed)?;
-    let body = Breakable::new(baked.asset.clone())?.body(SEED);
+    let body = Breakable::uniform(baked.asset.clone())?.body(SEED);
     let mut loads = Loads::default();
     let mut tell = |what: &str, share: f64| progress(&format!("{}: {what}", subject.name), share);
     tell("the paper's model", 0.0);
@@ -163,11 +163,11 @@ pub fn measure(
     let asset = &baked.asset;
     Ok(Row {
         subject: *subject,
-        nodes: asset.fracture.positions.len(),
-        tets: asset.fracture.tets.len(),
-        analysis_elements: asset.analysis.elements.len(),
-        analysis_nodes: asset.analysis.nodes.len(),
-        modes: asset.modes.count(),
+        nodes: asset.fracture().positions.len(),
+        tets: asset.fracture().tets.len(),
+        analysis_elements: asset.analysis().elements.len(),
+        analysis_nodes: asset.analysis().nodes.len(),
+        modes: asset.modes().count(),
         weak_points: body.weak_tets().len(),
         file_size: std::fs::metadata(&baked.path).map_or(0, |about| about.len()),
         bake: baked.seconds,
@@ -201,7 +201,7 @@ fn in_model(
         let asset = Asset::load(&baked.path)?;
         loads.load.push(clock.elapsed().as_secs_f64());
         let clock = Instant::now();
-        let fresh = Breakable::new(asset)?.body(SEED);
+        let fresh = Breakable::uniform(asset)?.body(SEED);
         loads.ready.push(clock.elapsed().as_secs_f64());
         sweep();
         cold.push(timed(&fresh, &contacts, config)?.0);

@@ -34,7 +34,7 @@ pub(crate) fn slab() -> Result<Arc<Asset>, FigureError> {
         fracture: Some(shape.size_for(20_000.0)?),
         ..BakeSpec::new("slab", shape, Material::preset("paper-slab-high")?)
     };
-    let slab = Arc::new(bake(&spec, &mut |_| {})?.0);
+    let slab = Arc::new(bake(&spec)?);
     Ok(changed(&slab, |m| {
         m.weak_point_density = SLAB_WEAK_POINTS;
         m.energy_depth = slab_energy_depth(m);
@@ -63,7 +63,7 @@ pub(crate) fn baked(
         fracture: Some(shape.size_for(tets)?),
         ..BakeSpec::new(name, shape, Material::preset(material)?)
     };
-    Ok(Arc::new(bake(&spec, &mut |_| {})?.0))
+    Ok(Arc::new(bake(&spec)?))
 }
 
 /// The body with other numbers of its material. Not for those that are in the modes: E, ν, ρ.
@@ -82,9 +82,9 @@ pub(crate) fn slab_inputs(slab: &Asset) -> String {
         1e3 * SLAB[0],
         1e3 * SLAB[1],
         1e3 * SLAB[2],
-        slab.fracture.tets.len(),
-        slab.modes.count(),
-        1e6 * slab.material.energy_depth,
+        slab.fracture().tets.len(),
+        slab.modes().count(),
+        1e6 * slab.material().energy_depth,
         SLAB_WEAK_POINTS,
         1e3 * radius
     )
@@ -92,6 +92,6 @@ pub(crate) fn slab_inputs(slab: &Asset) -> String {
 
 pub(crate) fn changed(asset: &Arc<Asset>, change: impl FnOnce(&mut Material)) -> Arc<Asset> {
     let mut asset = Asset::clone(asset);
-    change(&mut asset.material);
+    change(asset.parts_mut().material);
     Arc::new(asset)
 }

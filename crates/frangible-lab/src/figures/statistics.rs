@@ -37,7 +37,7 @@ pub(crate) fn mean_damage(
     contacts: &[Contact],
     config: &FractureConfig,
 ) -> Result<Damage, FigureError> {
-    let kind = Breakable::new(Arc::clone(asset))?;
+    let kind = Breakable::uniform(Arc::clone(asset))?;
     let all: Vec<Damage> = (1..=SEEDS)
         .into_par_iter()
         .map(|seed| Ok(damage(&impact(&kind.body(seed), contacts, config)?)))

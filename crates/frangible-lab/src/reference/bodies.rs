@@ -4,11 +4,11 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use frangible::glam::{DVec3, Vec3};
-use frangible::internals::asset::{AnalysisMesh, ConvexCell, EmbeddedPoint, Embedding};
+use frangible::internals::asset::{AnalysisMesh, AssetParts, ConvexCell, EmbeddedPoint, Embedding};
 use frangible::internals::modal::ModalBasis;
 use frangible::internals::stress::StressBounds;
 use frangible::internals::{MassProperties, TetMesh};
-use frangible::{Asset, Body, Contact, InputError, Material, Striker};
+use frangible::{Asset, Body, Breakable, Contact, InputError, Material, Striker};
 use frangible_bake::eigen::lowest_modes;
 use frangible_bake::fem::{Elasticity, Elements, QuadraticMesh, assemble};
 use frangible_bake::surface::{CREASE, outer_surface};
@@ -77,7 +77,7 @@ pub fn linear_asset(
             nodes[tet[k] as usize] = own(e, corner);
         }
     }
-    let mut asset = Asset {
+    let mut asset = Asset::from_parts(AssetParts {
         name: name.into(),
         material,
         surface: outer_surface(&fracture, CREASE),
@@ -106,8 +106,8 @@ pub fn linear_asset(
         render: None,
         portion: None,
         fracture: fracture.into(),
-    };
-    asset.modes.peak_stress = peak_stress(&asset);
+    });
+    asset.parts_mut().modes.peak_stress = peak_stress(&asset);
     Ok(asset)
 }
 
@@ -127,21 +127,21 @@ fn barycentric_gradients(mesh: &BodyMesh) -> Vec<[Vec3; 4]> {
 /// Largest principal stress, either sign, of each mode at amplitudes so small that strain is linear.
 fn peak_stress(asset: &Asset) -> Vec<f32> {
     const SMALL: f64 = 1e-9;
-    let modes = asset.modes.count();
+    let modes = asset.modes().count();
     let mut peak = vec![0.0_f32; modes];
-    for (e, tet) in asset.fracture.tets.iter().enumerate() {
+    for (e, tet) in asset.fracture().tets.iter().enumerate() {
         for (mode, peak) in peak.iter_mut().enumerate() {
             let mut gradient = [[0.0; 3]; 3];
-            for (a, g) in asset.analysis.barycentric_gradients[e].iter().enumerate() {
+            for (a, g) in asset.analysis().barycentric_gradients[e].iter().enumerate() {
                 for i in 0..3 {
-                    let u = f64::from(asset.modes.row(3 * tet[a] as usize + i)[mode]) * SMALL;
+                    let u = f64::from(asset.modes().row(3 * tet[a] as usize + i)[mode]) * SMALL;
                     for j in 0..3 {
                         gradient[i][j] += u * f64::from(g[j]);
                     }
                 }
             }
             let (sigma, _) =
-                principal(&stress(&asset.material, &gradient, Strain::GreenLagrange).0);
+                principal(&stress(asset.material(), &gradient, Strain::GreenLagrange).0);
             let largest = sigma[0].abs().max(sigma[2].abs()) / SMALL;
             *peak = peak.max(largest as f32);
         }
@@ -236,7 +236,7 @@ pub fn baked_cases() -> Result<Vec<Case>, BakeError> {
             ..BakeSpec::new(name, shape, material)
         };
         cases.push(Case {
-            asset: Arc::new(bake(&spec, &mut |_| {})?.0),
+            asset: Arc::new(bake(&spec)?),
             speed: 50.0,
         });
     }
@@ -250,14 +250,14 @@ pub fn baked_cases() -> Result<Vec<Case>, BakeError> {
 pub fn impact(case: &Case, number: u64) -> Result<(Body, Vec<Contact>), InputError> {
     let mut rng = ChaCha8Rng::seed_from_u64(number);
     let mut random = move || (rng.next_u64() >> 11) as f64 * 0.5_f64.powi(53);
-    let body = Body::new(case.asset.clone(), number)?;
+    let body = Breakable::uniform(case.asset.clone())?.body(number);
     let asset = &case.asset;
     let count = if random() < 0.75 { 1 } else { 2 };
     let mut contacts = Vec::new();
     for _ in 0..count {
-        let triangles = &asset.surface.triangles;
+        let triangles = &asset.surface().triangles;
         let triangle = triangles[(random() * triangles.len() as f64) as usize];
-        let x = triangle.map(|v| asset.fracture.positions[v as usize].as_dvec3());
+        let x = triangle.map(|v| asset.fracture().positions[v as usize].as_dvec3());
         let outward = (x[1] - x[0]).cross(x[2] - x[0]).normalize();
         // Well inside the triangle, a little off it; up to about 40° from its normal.
         let l = [0.15 + random(), 0.15 + random(), 0.15 + random()];
@@ -270,7 +270,12 @@ pub fn impact(case: &Case, number: u64) -> Result<(Body, Vec<Contact>), InputErr
         } else {
             (2e11, 0.005 + 0.03 * random(), 2.0 + 20.0 * random())
         };
-        let give = asset.mass.inverse_effective_mass(on, normal) + inverse_mass;
+        let give = asset.mass().inverse_effective_mass(on, normal) + inverse_mass;
+        let mut striker = Striker::rigid()
+            .with_contact_modulus(modulus)
+            .with_curvature_radius(radius)
+            .with_restitution(0.3);
+        striker.inverse_effective_mass = inverse_mass as f32;
         contacts.push(Contact {
             point: (on + 1e-4 * outward * random()).as_vec3(),
             normal: normal.as_vec3(),
@@ -278,16 +283,7 @@ pub fn impact(case: &Case, number: u64) -> Result<(Body, Vec<Contact>), InputErr
             friction: Vec3::ZERO,
             approach_speed: speed as f32,
             duration: 0.0,
-            striker: Striker {
-                contact_modulus: modulus as f32,
-                crushing_pressure: f32::INFINITY,
-                inverse_effective_mass: inverse_mass as f32,
-                curvature_radius: radius as f32,
-                restitution: 0.3,
-                modal_duration: 0.0,
-                receptance: None,
-                shared: None,
-            },
+            striker,
         });
     }
     Ok((body, contacts))

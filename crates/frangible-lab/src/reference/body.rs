@@ -45,10 +45,10 @@ pub(crate) struct Solid<'a> {
 
 impl<'a> Solid<'a> {
     pub(crate) fn new(asset: &'a Asset, field: Field) -> Result<Self, ReferenceError> {
-        let mesh = &asset.fracture;
+        let mesh = asset.fracture();
         if field == Field::Linear {
             for (e, tet) in mesh.tets.iter().enumerate() {
-                if asset.analysis.elements.get(e).map(|n| &n[..4]) != Some(&tet[..]) {
+                if asset.analysis().elements.get(e).map(|n| &n[..4]) != Some(&tet[..]) {
                     return Err(ReferenceError::OtherMesh { element: e });
                 }
             }
@@ -58,12 +58,12 @@ impl<'a> Solid<'a> {
         let gradients = match field {
             Field::Linear => mesh.tets.iter().map(|t| gradients(corners(t))).collect(),
             Field::Embedded => asset
-                .analysis
+                .analysis()
                 .elements
                 .iter()
                 .map(|n| {
                     gradients(std::array::from_fn(|k| {
-                        asset.analysis.nodes[n[k] as usize].as_dvec3()
+                        asset.analysis().nodes[n[k] as usize].as_dvec3()
                     }))
                 })
                 .collect(),
@@ -71,7 +71,7 @@ impl<'a> Solid<'a> {
         let centre = |tet: &[u32; 4]| corners(tet).iter().sum::<DVec3>() / 4.0;
         Ok(Self {
             asset,
-            material: &asset.material,
+            material: asset.material(),
             field,
             strain: Strain::GreenLagrange,
             centres: mesh.tets.iter().map(centre).collect(),
@@ -81,12 +81,12 @@ impl<'a> Solid<'a> {
     }
 
     pub(crate) fn corners(&self, e: usize) -> [DVec3; 4] {
-        self.asset.fracture.tets[e].map(|v| self.nodes[v as usize])
+        self.asset.fracture().tets[e].map(|v| self.nodes[v as usize])
     }
 
     /// Face neighbours of an element, by rising number: the paper gives no order.
     pub(crate) fn neighbours(&self, e: usize) -> Vec<usize> {
-        let mut all: Vec<usize> = self.asset.fracture.neighbours[e]
+        let mut all: Vec<usize> = self.asset.fracture().neighbours[e]
             .iter()
             .filter(|&&n| n != NO_NEIGHBOUR)
             .map(|&n| n as usize)
@@ -99,7 +99,7 @@ impl<'a> Solid<'a> {
     fn carriers(&self) -> usize {
         match self.field {
             Field::Linear => self.nodes.len(),
-            Field::Embedded => self.asset.analysis.nodes.len(),
+            Field::Embedded => self.asset.analysis().nodes.len(),
         }
     }
 
@@ -109,7 +109,7 @@ impl<'a> Solid<'a> {
         for v in 0..self.carriers() {
             let mut u = DVec3::ZERO;
             for axis in 0..3 {
-                for (i, &phi) in self.asset.modes.row(3 * v + axis).iter().enumerate() {
+                for (i, &phi) in self.asset.modes().row(3 * v + axis).iter().enumerate() {
                     u[axis] += f64::from(phi) * q[i];
                 }
             }
@@ -120,7 +120,7 @@ impl<'a> Solid<'a> {
 
     /// φ_i(b) · n of every mode for the point with weights `l` in a triangle of fracture nodes, 1/√kg.
     pub(crate) fn modal_shape(&self, triangle: [u32; 3], l: [f64; 3], n: DVec3) -> Vec<f64> {
-        let modes = &self.asset.modes;
+        let modes = self.asset.modes();
         let mut xi = vec![0.0; modes.count()];
         let mut add = |node: usize, weight: f64| {
             for axis in 0..3 {
@@ -133,8 +133,8 @@ impl<'a> Solid<'a> {
             match self.field {
                 Field::Linear => add(triangle[k] as usize, l[k]),
                 Field::Embedded => {
-                    let at = &self.asset.embedding.nodes[triangle[k] as usize];
-                    let element = self.asset.analysis.elements[at.element as usize];
+                    let at = &self.asset.embedding().nodes[triangle[k] as usize];
+                    let element = self.asset.analysis().elements[at.element as usize];
                     let values = quadratic_values(at.barycentric.map(f64::from));
                     for a in 0..10 {
                         add(element[a] as usize, l[k] * values[a]);
@@ -149,10 +149,10 @@ impl<'a> Solid<'a> {
     pub(crate) fn gradient(&self, u: &[DVec3], e: usize) -> [[f64; 3]; 3] {
         match self.field {
             Field::Linear => {
-                let tet = self.asset.fracture.tets[e];
+                let tet = self.asset.fracture().tets[e];
                 sum((0..4).map(|a| (u[tet[a] as usize], self.gradients[e][a])))
             }
-            Field::Embedded => self.gradient_at(u, &self.asset.embedding.tets[e]),
+            Field::Embedded => self.gradient_at(u, &self.asset.embedding().tets[e]),
         }
     }
 
@@ -163,7 +163,7 @@ impl<'a> Solid<'a> {
             return self.gradient(u, element);
         }
         let g = quadratic_gradients(at.barycentric.map(f64::from), self.gradients[element]);
-        let nodes = self.asset.analysis.elements[element];
+        let nodes = self.asset.analysis().elements[element];
         sum((0..10).map(|a| (u[nodes[a] as usize], g[a])))
     }
 }

@@ -27,7 +27,7 @@ fn admissible(solid: &Solid, modal_impulse: &[f64], mut duration: f64, brought: 
         for instant in 1..=40 {
             let t = duration * f64::from(instant) / 40.0;
             let mut energy = 0.0;
-            for (i, &lambda) in solid.asset.modes.eigenvalues.iter().enumerate() {
+            for (i, &lambda) in solid.asset.modes().eigenvalues.iter().enumerate() {
                 let (q, v) = forced(lambda, damping(solid, i), u, t);
                 let force = modal_impulse[i] * u / 2.0;
                 energy += 0.5 * (v * v + lambda * q * q) * force * force;
@@ -91,7 +91,7 @@ impl Force {
 
     /// `None` when no contact has an impulse.
     pub(crate) fn new(solid: &Solid, contacts: &[Contact], options: &Options) -> Option<Self> {
-        let mut modal_impulse = vec![0.0; solid.asset.modes.count()];
+        let mut modal_impulse = vec![0.0; solid.asset.modes().count()];
         let mut touches = Vec::new();
         for contact in contacts.iter().filter(|c| c.impulse > 0.0) {
             let touch = touch(solid, contact);
@@ -135,7 +135,7 @@ impl Force {
     fn go_on(&mut self, solid: &Solid) {
         let a = self.frequency() / 2.0;
         let mut amplitudes = Vec::new();
-        for (i, &lambda) in solid.asset.modes.eigenvalues.iter().enumerate() {
+        for (i, &lambda) in solid.asset.modes().eigenvalues.iter().enumerate() {
             amplitudes.push(excitation(self.modal_impulse[i], lambda, a));
         }
         let largest = amplitudes.iter().copied().fold(0.0, f64::max);
@@ -147,7 +147,7 @@ impl Force {
                 break;
             }
         }
-        let end = 1.5 * TAU / solid.asset.modes.eigenvalues[low].sqrt();
+        let end = 1.5 * TAU / solid.asset.modes().eigenvalues[low].sqrt();
         if end > self.duration {
             let wanted = end / self.time_step;
             self.margin = self.margin.min((wanted - wanted.round()).abs() / wanted);
@@ -161,7 +161,7 @@ fn touch(solid: &Solid, contact: &Contact) -> Touch {
     let p = contact.point.as_dvec3();
     let n = contact.normal.as_dvec3().normalize();
     let mut best = (f64::INFINITY, 0, [0.0; 3], p);
-    for (t, triangle) in asset.surface.triangles.iter().enumerate() {
+    for (t, triangle) in asset.surface().triangles.iter().enumerate() {
         let x = triangle.map(|v| solid.nodes[v as usize]);
         let l = closest(x, p);
         let q = x[0] * l[0] + x[1] * l[1] + x[2] * l[2];
@@ -172,19 +172,19 @@ fn touch(solid: &Solid, contact: &Contact) -> Touch {
     let (_, t, l, b) = best;
     let striker = &contact.striker;
     let speed = f64::from(contact.approach_speed).max(1e-3);
-    let radius = f64::from(asset.surface.curvature_radius[t]);
-    let ball = (0.75 * asset.mass.volume / PI).cbrt();
+    let radius = f64::from(asset.surface().curvature_radius[t]);
+    let ball = (0.75 * asset.mass().volume / PI).cbrt();
 
     // Eq. 1 for the two bodies: 1/m = nᵀ K n of both, 1/E of both, 1/r of both.
     let mut give = f64::from(striker.inverse_effective_mass);
-    if asset.supported.is_empty() {
-        let arm = (b - asset.mass.centre).cross(n);
-        give += 1.0 / asset.mass.mass + arm.dot(asset.mass.inertia.inverse() * arm);
+    if asset.supported().is_empty() {
+        let arm = (b - asset.mass().centre).cross(n);
+        give += 1.0 / asset.mass().mass + arm.dot(asset.mass().inertia.inverse() * arm);
     }
     let mass = if give > 0.0 {
         1.0 / give
     } else {
-        asset.mass.mass
+        asset.mass().mass
     };
     let nu = solid.material.poisson_ratio;
     let own = solid.material.youngs_modulus / (1.0 - nu * nu);
@@ -195,7 +195,7 @@ fn touch(solid: &Solid, contact: &Contact) -> Touch {
     Touch {
         triangle: t as u32,
         speed,
-        xi: solid.modal_shape(asset.surface.triangles[t], l, n),
+        xi: solid.modal_shape(asset.surface().triangles[t], l, n),
         radius: radius.clamp(3e-3, ball),
         hertz,
         rigid_striker: striker.contact_modulus.is_infinite(),
@@ -208,7 +208,7 @@ fn touch(solid: &Solid, contact: &Contact) -> Touch {
 fn contact_duration(solid: &Solid, touch: &Touch, model: Duration) -> f64 {
     // "we select the most excited mode among those that are not critically damped": the one of the largest
     // displacement |ξ|/√λ, with a damping ratio below 0.9.
-    let modes = &solid.asset.modes;
+    let modes = solid.asset.modes();
     let mut max = None;
     let mut largest = -1.0;
     for (i, &lambda) in modes.eigenvalues.iter().enumerate() {
@@ -241,14 +241,14 @@ fn contact_duration(solid: &Solid, touch: &Touch, model: Duration) -> f64 {
 
 /// d_i = α λ_i + β, 1/s.
 pub(crate) fn damping(solid: &Solid, i: usize) -> f64 {
-    solid.material.stiffness_damping * solid.asset.modes.eigenvalues[i]
+    solid.material.stiffness_damping * solid.asset.modes().eigenvalues[i]
         + solid.material.mass_damping
 }
 
 /// Im ω_i, rad/s; 0 of a mode that does not swing.
 fn natural_frequency(solid: &Solid, i: usize) -> f64 {
     let d = damping(solid, i);
-    (solid.asset.modes.eigenvalues[i] - 0.25 * d * d)
+    (solid.asset.modes().eigenvalues[i] - 0.25 * d * d)
         .max(0.0)
         .sqrt()
 }
@@ -287,7 +287,7 @@ fn sampled(
     duration: f64,
     per_period: f64,
 ) -> (f64, usize, f64) {
-    let modes = &solid.asset.modes;
+    let modes = solid.asset.modes();
     let a = PI / duration / 2.0;
     let u = PI / duration;
     let mut total = 0.0;

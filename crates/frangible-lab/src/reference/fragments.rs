@@ -8,7 +8,7 @@ use crate::reference::propagation::Crack;
 
 /// Fragment of each node, numbered by first node.
 pub(crate) fn fragments(solid: &Solid, cracks: &[Crack], rule: Marks) -> Vec<u32> {
-    let tets = &solid.asset.fracture.tets;
+    let tets = &solid.asset.fracture().tets;
     let mut joined: Vec<BTreeSet<u32>> = vec![BTreeSet::new(); solid.nodes.len()];
     for tet in tets {
         for &a in tet {

@@ -99,7 +99,7 @@ fn run(
     result.steps = force.steps;
     result.steps_margin = force.margin;
     let look = Look::new(&solid, body, options.surface_flaws, &force.pressed);
-    let mut marked = vec![None; body.asset().fracture.tets.len()];
+    let mut marked = vec![None; body.asset().fracture().tets.len()];
     let mut before = vec![DVec3::ZERO; solid.displacements(&amplitudes(&solid, &force, 1)).len()];
     for step in 0..force.steps {
         // lines 7, 8

@@ -14,7 +14,7 @@ pub(crate) fn amplitudes(solid: &Solid, force: &Force, step: usize) -> Vec<f64> 
     let within = step.min(force.contact_steps) as f64 * force.time_step;
     let after = step.saturating_sub(force.contact_steps) as f64 * force.time_step;
     let mut q = Vec::new();
-    for (i, &lambda) in solid.asset.modes.eigenvalues.iter().enumerate() {
+    for (i, &lambda) in solid.asset.modes().eigenvalues.iter().enumerate() {
         let d = damping(solid, i);
         let mut unit = forced(lambda, d, u, within);
         if after > 0.0 {

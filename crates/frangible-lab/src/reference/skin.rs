@@ -29,7 +29,7 @@ impl Look {
     pub(crate) fn new(solid: &Solid, body: &Body, surface_flaws: bool, pressed: &[u32]) -> Self {
         if surface_flaws {
             let config = FractureConfig::default();
-            let tets = 0..solid.asset.fracture.tets.len() as u32;
+            let tets = 0..solid.asset.fracture().tets.len() as u32;
             Self::Flaws {
                 points: tets
                     .map(|e| body.weak_place(e, &config, pressed).0)
@@ -83,8 +83,8 @@ impl Look {
 
 /// Number of the surface triangle and outward normal.
 fn largest_free_face(solid: &Solid, e: usize) -> Option<(u32, DVec3)> {
-    let (mesh, surface) = (&solid.asset.fracture, &solid.asset.surface);
-    let held = |v: &u32| solid.asset.supported.binary_search(v).is_ok();
+    let (mesh, surface) = (solid.asset.fracture(), solid.asset.surface());
+    let held = |v: &u32| solid.asset.supported().binary_search(v).is_ok();
     let mut best = None;
     let mut most = 0.0;
     for k in 0..4 {

@@ -7,7 +7,7 @@ use std::time::Instant;
 
 use frangible_sound::glam::{DQuat, DVec3, Vec3};
 use frangible_sound::{
-    AudibleDamping, Listener, Plate, PlateMaterial, Pulse, Strike, Synth, SynthConfig,
+    AudibleDamping, Listener, Plate, PlateMaterial, SoundPulse, Strike, Synth, SynthConfig,
 };
 
 /// Samples that are rendered at once, and number of repetitions: the fastest time counts, which nothing else on the machine has held up.
@@ -93,7 +93,7 @@ fn ringing() -> Result<Synth, Box<dyn Error>> {
         let place = DVec3::new(0.01 * f64::from(i % 10), 0.0, 0.01 * f64::from(i / 10));
         let id = synth.add(Arc::new(body), place, DQuat::IDENTITY)?;
         let strike = Strike {
-            pulse: Arc::new(Pulse::half_sine(10.0, 1e-4)),
+            pulse: Arc::new(SoundPulse::half_sine(10.0, 1e-4)),
             push: plate.push(Vec3::new(0.3 * side as f32, 0.01, 0.0), Vec3::Z),
             direction: Vec3::Z,
         };

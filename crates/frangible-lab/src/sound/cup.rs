@@ -68,7 +68,7 @@ pub struct Knocked {
 }
 
 impl Knocked {
-    fn new(samples: Vec<f32>, body: &frangible_sound::Body, rubbed: f64) -> Self {
+    fn new(samples: Vec<f32>, body: &frangible_sound::SoundBody, rubbed: f64) -> Self {
         let modes = body.modes.iter().take(4).map(|mode| mode.frequency);
         let peak = Spectrum::of(&samples, RATE).peak(300.0, 6000.0);
         let falls = [0.1, 0.01, 0.001].map(|share| {
@@ -103,8 +103,8 @@ impl Cup {
             modes: MODES,
             ..BakeSpec::new("cup", shape, material.clone())
         };
-        let (asset, _) = bake(&spec, &mut |_| {})?;
-        let kind = Breakable::new(Arc::new(asset))?;
+        let asset = bake(&spec)?;
+        let kind = Breakable::uniform(Arc::new(asset))?;
         let intact = kind.body(1);
         let mut two_tones = [0.0; 2];
         for (tone, angle) in two_tones.iter_mut().zip([0.25 * TAU, 0.125 * TAU]) {
@@ -154,8 +154,11 @@ impl Cup {
 }
 
 /// The cup as it sounds, and the modal forces of a newton on its wall near the rim at an angle about z; the handle is at −y.
-fn at_rim(cup: &Body, angle: f64) -> Result<(frangible_sound::Body, Vec<f32>), Box<dyn Error>> {
-    let damping = AudibleDamping::of(&cup.asset().material);
+fn at_rim(
+    cup: &Body,
+    angle: f64,
+) -> Result<(frangible_sound::SoundBody, Vec<f32>), Box<dyn Error>> {
+    let damping = AudibleDamping::of(cup.asset().material());
     let (shape, body) = AssetSound::new(cup, &damping, Hold::Free)?;
     let outward = Vec3::new(angle.cos() as f32, angle.sin() as f32, 0.0);
     let push = shape.push(0.06 * outward + Vec3::new(0.0, 0.0, 0.045), -outward);

@@ -11,7 +11,7 @@ use frangible::internals::asset::EmbeddedPoint;
 use frangible::internals::modal::ModalBasis;
 use frangible::internals::piece::{Elastic, Portion};
 use frangible::internals::state::BodyState;
-use frangible_sound::Pulse;
+use frangible_sound::SoundPulse;
 
 /// Lanes of a row: its modes are filled up to a multiple of them.
 const LANES: usize = 16;
@@ -47,7 +47,7 @@ impl Tone {
 /// Course of the modes under a blow.
 pub(super) struct Course {
     /// Force of the faces on each mode over time.
-    pub(super) pulses: Vec<Pulse>,
+    pub(super) pulses: Vec<SoundPulse>,
     /// Energy at the end of the blow, J, and the part of it that friction has taken by the end.
     pub(super) energy: f64,
     pub(super) rubbed: f64,
@@ -64,7 +64,7 @@ impl Faces {
     ) -> Self {
         let modes = &elastic.modes;
         let width = modes.count().next_multiple_of(LANES);
-        let fracture = &portion.root().fracture;
+        let fracture = portion.root().fracture();
         let young = material.youngs_modulus as f32;
         let shear = young / (2.0 + 2.0 * material.poisson_ratio as f32);
         let mut faces = Self {
@@ -73,7 +73,7 @@ impl Faces {
             stiffness: Vec::new(),
             friction,
         };
-        let polygons = state.faces(&portion.root().fracture);
+        let polygons = state.faces(portion.root().fracture());
         for (cut, (corners, count)) in state.cuts().zip(polygons) {
             let nodes = fracture.tets[cut.tet as usize];
             let mut shares = [0.0_f32; 4];
@@ -124,7 +124,7 @@ impl Faces {
         &self,
         tones: &[Tone],
         push: &[f32],
-        blow: &Pulse,
+        blow: &SoundPulse,
         [step, long]: [f64; 2],
         every: usize,
     ) -> Course {
@@ -195,7 +195,7 @@ impl Faces {
             }
         }
         let time_step = every as f64 * step;
-        let pulses = (0..tones.len()).map(|i| Pulse {
+        let pulses = (0..tones.len()).map(|i| SoundPulse {
             time_step,
             force: noted.iter().map(|sums| sums[i]).collect(),
         });
@@ -260,7 +260,7 @@ mod tests {
 
     fn follow(friction: f32, blow: f64) -> Course {
         let tone = |omega: f64| Tone { omega, loss: 0.0 };
-        let blow = Pulse::half_sine(blow, 1e-4);
+        let blow = SoundPulse::half_sine(blow, 1e-4);
         let tones = [tone(1e3), tone(700.0)];
         face(friction).follow(&tones, &[1.0, 0.8], &blow, [1e-6, 0.1], 1)
     }

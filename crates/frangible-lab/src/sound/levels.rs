@@ -46,7 +46,7 @@ pub(super) fn all() -> Result<Vec<HeardLevel>, Box<dyn Error>> {
 impl HeardLevel {
     fn compute(name: &str) -> Result<Self, Box<dyn Error>> {
         let scene = scene(name)?;
-        let baked = bake(&scene, &mut |_| {})?;
+        let baked = bake(&scene)?;
         let run = play(&scene, &baked, &mut |_| {})?;
         let config = sound_config(&run, &scene);
         let sounded = sound(&run, &scene, &config)?;

@@ -8,7 +8,7 @@ use frangible::{Breakable, Material};
 use frangible_bake::{BakeSpec, Shape, Station, bake};
 use frangible_sound::glam::{DQuat, DVec3};
 use frangible_sound::{
-    AssetSound, AudibleDamping, Body, Hold, Listener, Pulse, Strike, Synth, SynthConfig,
+    AssetSound, AudibleDamping, Hold, Listener, SoundBody, SoundPulse, Strike, Synth, SynthConfig,
 };
 
 use super::RATE;
@@ -128,8 +128,8 @@ impl Plan {
             followed: Some(40),
             ..BakeSpec::new(self.name, self.shape, self.material)
         };
-        let (asset, _) = bake(&spec, &mut |_| {})?;
-        let kind = Breakable::new(Arc::new(asset))?;
+        let asset = bake(&spec)?;
+        let kind = Breakable::uniform(Arc::new(asset))?;
         let (shape, body) = AssetSound::new(&kind.body(1), &damping, Hold::Free)?;
         let push = shape.push(self.point, self.direction);
         let samples = struck(&body, vec![blow(push)], LONG)?;
@@ -158,7 +158,7 @@ impl Plan {
 }
 
 /// The mode whose frequency is nearest to one, Hz.
-fn nearest(body: &Body, frequency: f64) -> f64 {
+fn nearest(body: &SoundBody, frequency: f64) -> f64 {
     let away = |f: f64| (f / frequency).ln().abs();
     let modes = body.modes.iter().map(|mode| mode.frequency);
     modes
@@ -169,7 +169,7 @@ fn nearest(body: &Body, frequency: f64) -> f64 {
 /// A blow of 0.01 N·s and 0.1 ms.
 pub(super) fn blow(push: Vec<f32>) -> Strike {
     Strike {
-        pulse: Arc::new(Pulse::half_sine(0.01, 1e-4)),
+        pulse: Arc::new(SoundPulse::half_sine(0.01, 1e-4)),
         push,
         direction: Vec3::ZERO,
     }
@@ -177,7 +177,7 @@ pub(super) fn blow(push: Vec<f32>) -> Strike {
 
 /// The sound of strikes that begin together, at 1 m, Pa, for a time, s.
 pub(super) fn struck(
-    body: &Body,
+    body: &SoundBody,
     strikes: Vec<Strike>,
     long: f64,
 ) -> Result<Vec<f32>, Box<dyn Error>> {

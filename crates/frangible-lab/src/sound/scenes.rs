@@ -51,7 +51,7 @@ impl HeardScene {
     /// Bakes, plays and hears a built-in scene.
     pub(super) fn compute(name: &str) -> Result<Self, Box<dyn Error>> {
         let scene = scene(name)?;
-        let baked = bake(&scene, &mut |_| {})?;
+        let baked = bake(&scene)?;
         let run = play(&scene, &baked, &mut |_| {})?;
         let config = sound_config(&run, &scene);
         let rate = config.rate;
@@ -154,7 +154,7 @@ pub(super) fn drops() -> Result<Vec<Drop>, Box<dyn Error>> {
     for height in HEIGHTS {
         let mut scene = scene("glass")?;
         scene.drop_all(height);
-        let baked = bake(&scene, &mut |_| {})?;
+        let baked = bake(&scene)?;
         let mut levels = Vec::new();
         for seed in 1..=SEEDS {
             scene.seed = seed;

@@ -56,17 +56,17 @@ pub fn collision_shape(fragment: &Fragment, config: &WorldConfig) -> SharedShape
 /// A box, or a compound of the asset's cells, in the body frame.
 pub(crate) fn whole_shape(asset: &Asset, detail: ColliderDetail) -> SharedShape {
     // Boxes touch each other exactly, and quickly.
-    if let Some(half) = box_of(&asset.fracture.positions, asset.mass.volume) {
+    if let Some(half) = box_of(&asset.fracture().positions, asset.mass().volume) {
         return SharedShape::cuboid(half.x, half.y, half.z);
     }
-    let cells = asset.cells.iter().map(|cell| &*cell.points).collect();
+    let cells = asset.cells().iter().map(|cell| &*cell.points).collect();
     let parts = merged_parts(cells, detail.parts);
     let hulls = parts.iter().filter_map(|points| {
         let corners = thinned(points, detail.hull_points.max(4));
         let hull = SharedShape::convex_hull(&corners)?;
         Some(hull).filter(|hull| hull.mass_properties(1.0).mass() > LEAST_VOLUME)
     });
-    compound(hulls).unwrap_or_else(|| fitted_box(&asset.fracture.positions, asset.mass.volume))
+    compound(hulls).unwrap_or_else(|| fitted_box(&asset.fracture().positions, asset.mass().volume))
 }
 
 fn has_volume(hull: &ConvexHull) -> bool {

@@ -22,35 +22,39 @@ pub struct Ball {
 }
 
 impl BreakableWorld {
-    /// Inserts a breakable body with its centre of mass at `pose`; `linvel` in m/s, `angvel` in rad/s. Use [`insert_body`](Self::insert_body) for
-    /// the other options of Rapier's builders.
+    /// Inserts a breakable body; `rigid` has the pose and velocity of its centre of mass, and its user data.
     ///
-    /// # Errors
-    /// A pose or velocity that is not finite, an asset without a positive mass, a full world.
-    pub fn insert_breakable(
-        &mut self,
-        body: Body,
-        pose: Pose,
-        linvel: Vector,
-        angvel: Vector,
-    ) -> Result<RigidBodyHandle, WorldError> {
-        let rigid = RigidBodyBuilder::dynamic().pose(pose);
-        self.insert_body(body, rigid.linvel(linvel).angvel(angvel), |collider| {
-            collider
-        })
-    }
-
-    /// Inserts a breakable body described by Rapier's builders: `rigid` has the pose and velocity of its centre of mass and its user data;
-    /// `finish` receives the collider builder and may add groups, hooks and events. Fragments inherit all of these.
-    ///
-    /// The collider is a box where the body is one, else the compound of the asset's convex cells, with the friction and restitution of its material; mass and inertia are
-    /// the asset's. A body whose asset [is supported](frangible::Asset::is_supported) becomes a fixed one: it does not move, whatever its
-    /// velocities, until it breaks; then the fragments that are still supported stay where they are. Any other can be held by a fixed
+    /// The collider is a box where the body is one, else the compound of the asset's convex cells, with the friction and restitution of its material;
+    /// mass and inertia are the asset's. A body whose asset [is supported](frangible::Asset::is_supported) becomes a fixed one: it does not move,
+    /// whatever its velocities, until it breaks; then the fragments that are still supported stay where they are. Any other can be held by a fixed
     /// `rigid`, or by impulse joints, but all its fragments are dynamic.
     ///
+    /// ```
+    /// use frangible_rapier::rapier3d::dynamics::RigidBodyBuilder;
+    /// # use frangible_rapier::{BreakableWorld, WorldError, rapier3d::math::Vector};
+    /// # fn of(world: &mut BreakableWorld, body: frangible::Body) -> Result<(), WorldError> {
+    /// let falls = RigidBodyBuilder::dynamic().translation(Vector::Y).linvel(Vector::NEG_Y);
+    /// let handle = world.insert(body, falls)?;
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
     /// # Errors
     /// A pose or velocity that is not finite, an asset without a positive mass, a full world.
-    pub fn insert_body(
+    pub fn insert(
+        &mut self,
+        body: Body,
+        rigid: RigidBodyBuilder,
+    ) -> Result<RigidBodyHandle, WorldError> {
+        self.insert_with(body, rigid, |collider| collider)
+    }
+
+    /// Inserts a breakable body like [`insert`](Self::insert); `finish` receives the builder of its collider and may add groups, hooks and events.
+    /// Fragments inherit all of these.
+    ///
+    /// # Errors
+    /// The errors of [`insert`](Self::insert).
+    pub fn insert_with(
         &mut self,
         body: Body,
         rigid: RigidBodyBuilder,
@@ -60,7 +64,7 @@ impl BreakableWorld {
         check_pose(rigid.position)?;
         finite("velocity", rigid.linvel)?;
         finite("angular velocity", rigid.angvel)?;
-        let mass = rapier_mass(&body.asset().mass)?;
+        let mass = rapier_mass(&body.asset().mass())?;
         let shape = match self
             .shapes
             .iter()
@@ -73,7 +77,7 @@ impl BreakableWorld {
                 shape
             }
         };
-        let surface = SurfaceProperties::of(&body.asset().material, Striker::EDGE_RADIUS);
+        let surface = SurfaceProperties::of(body.asset().material(), Striker::EDGE_RADIUS);
         surface.validate()?;
         let mut rigid = rigid.additional_mass_properties(mass);
         if body.asset().is_supported() {
@@ -113,7 +117,7 @@ impl BreakableWorld {
             .ccd_enabled(true)
             .allow_fast_rotation(true);
         let builder = builder.additional_mass_properties(ball_mass(ball.mass, ball.radius));
-        Ok(self.insert(builder, SharedShape::ball(ball.radius), surface))
+        Ok(self.insert_plain(builder, SharedShape::ball(ball.radius), surface))
     }
 
     /// Inserts a box that never moves; half extents in m.
@@ -133,7 +137,7 @@ impl BreakableWorld {
             positive("half extent of the box (m)", extent)?;
         }
         let shape = SharedShape::cuboid(half_extents.x, half_extents.y, half_extents.z);
-        Ok(self.insert(RigidBodyBuilder::fixed().pose(pose), shape, surface))
+        Ok(self.insert_plain(RigidBodyBuilder::fixed().pose(pose), shape, surface))
     }
 
     /// Inserts an infinite fixed half-space, such as a floor: everything behind the plane through `point` (m) with outward `normal`.
@@ -152,7 +156,7 @@ impl BreakableWorld {
         surface.validate()?;
         let normal = normal.try_normalize().ok_or(WorldError::NoNormal(normal))?;
         let shape = SharedShape::new(HalfSpace::new(normal));
-        Ok(self.insert(RigidBodyBuilder::fixed().translation(point), shape, surface))
+        Ok(self.insert_plain(RigidBodyBuilder::fixed().translation(point), shape, surface))
     }
 
     /// Sets the surface of all colliders of any body of [`BreakableWorld::physics`].
@@ -190,7 +194,7 @@ impl BreakableWorld {
         }
     }
 
-    pub(crate) fn insert(
+    pub(crate) fn insert_plain(
         &mut self,
         body: RigidBodyBuilder,
         shape: SharedShape,

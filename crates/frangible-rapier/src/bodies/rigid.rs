@@ -37,6 +37,6 @@ impl BreakableWorld {
             .ccd_enabled(true)
             .allow_fast_rotation(true)
             .additional_mass_properties(properties);
-        Ok(self.insert(builder, shape, surface))
+        Ok(self.insert_plain(builder, shape, surface))
     }
 }

@@ -41,22 +41,23 @@ pub(super) fn striker(
             .or(ball)
             .unwrap_or(f32::INFINITY),
     };
-    Striker {
-        contact_modulus: surface.map_or(f32::INFINITY, |s| s.contact_modulus),
-        crushing_pressure: surface.map_or(f32::INFINITY, |s| s.crushing_pressure),
-        inverse_effective_mass: partner.map_or(0.0, |p| inverse_effective_mass(p, world, normal)),
-        curvature_radius,
-        restitution: point.restitution.clamp(0.0, 1.0),
-        modal_duration: 0.0,
-        shared: None,
-        receptance: None,
+    let mut striker = Striker::rigid();
+    if let Some(surface) = surface {
+        striker.contact_modulus = surface.contact_modulus;
+        striker.crushing_pressure = surface.crushing_pressure;
     }
+    if let Some(partner) = partner {
+        striker.inverse_effective_mass = inverse_effective_mass(partner, world, normal);
+    }
+    striker.curvature_radius = curvature_radius;
+    striker.restitution = point.restitution.clamp(0.0, 1.0);
+    striker
 }
 
 /// Radius of curvature of a breakable's outer surface nearest to a point of its body frame, m.
 fn curvature_at(body: &Body, point: Vector) -> f32 {
     let triangle = body.nearest_on_surface(point).triangle;
-    body.asset().surface.curvature_radius[triangle as usize].max(Striker::EDGE_RADIUS)
+    body.asset().surface().curvature_radius[triangle as usize].max(Striker::EDGE_RADIUS)
 }
 
 /// Two breakable bodies meet: how the other one vibrates under each contact, for blows that are integrated, and how long it answers, for
@@ -88,16 +89,15 @@ pub(super) fn answer(
             *body.position() * contact.point,
             *body.rotation() * contact.normal,
         );
+        let mut there = Striker::fixed(itself.asset().material());
+        there.inverse_effective_mass = inverse_effective_mass(body, world, normal);
+        there.curvature_radius = curvature_at(itself, contact.point);
+        there.restitution = contact.striker.restitution;
         let mirrored = Contact {
             point: into * contact.point,
             normal: into.rotation * -contact.normal,
             friction: into.rotation * -contact.friction,
-            striker: Striker {
-                inverse_effective_mass: inverse_effective_mass(body, world, normal),
-                curvature_radius: curvature_at(itself, contact.point),
-                restitution: contact.striker.restitution,
-                ..Striker::fixed(&itself.asset().material)
-            },
+            striker: there,
             ..contact.clone()
         };
         if integrated {

@@ -58,10 +58,14 @@ impl Expected {
 }
 
 impl BreakableWorld {
-    /// Sets the model that computes the modes of fragments, so that they can break again according to
-    /// [`WorldConfig::pieces`](crate::WorldConfig::pieces). `None`, the initial state: they cannot.
-    pub fn set_piece_model(&mut self, model: Option<Arc<dyn PieceModel>>) {
-        self.piece_model = model;
+    /// This world with a model that computes the modes of fragments, so that they can break again according to
+    /// [`WorldConfig::pieces`](crate::WorldConfig::pieces). Without one they cannot.
+    #[must_use]
+    pub fn with_piece_model(self, model: impl PieceModel + 'static) -> Self {
+        Self {
+            piece_model: Some(Arc::new(model)),
+            ..self
+        }
     }
 
     /// Asks for breakable bodies in the place of the fragments of a body that broke.
@@ -87,7 +91,7 @@ impl BreakableWorld {
                 found?.as_ref().filter(large).cloned()
             }
         };
-        let whole = body.asset().mass.mass;
+        let whole = body.asset().mass().mass;
         // Fragments are ordered by their mass.
         let fragments = broken.fracture.fragments.iter().enumerate();
         for (&handle, (number, fragment)) in broken.fragments.iter().zip(fragments) {
@@ -203,8 +207,8 @@ impl BreakableWorld {
 /// Tetrahedra of a body in which cracks can run.
 fn tets_of(body: &Body) -> usize {
     let asset = body.asset();
-    let portion = asset.portion.as_ref();
-    portion.map_or(asset.fracture.tets.len(), |portion| portion.tets().len())
+    let portion = asset.portion();
+    portion.map_or(asset.fracture().tets.len(), |portion| portion.tets().len())
 }
 
 /// A body of its own, with what its first steady load would have to find out.

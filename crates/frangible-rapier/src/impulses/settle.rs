@@ -74,7 +74,7 @@ impl BreakableWorld {
         let body = self.state.breakables.remove(&key(broken.parent))?;
         self.state.burdens.remove(&key(broken.parent));
         self.state.surfaces.remove(&key(broken.parent));
-        let surface = SurfaceProperties::of(&body.asset().material, Striker::EDGE_RADIUS);
+        let surface = SurfaceProperties::of(body.asset().material(), Striker::EDGE_RADIUS);
         let now = self.time();
         for (&handle, fragment) in broken.fragments.iter().zip(&broken.fracture.fragments) {
             self.state.surfaces.insert(key(handle), surface);

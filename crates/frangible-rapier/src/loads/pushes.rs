@@ -156,7 +156,7 @@ impl BreakableWorld {
             if !(rigid.is_dynamic() || body.asset().is_supported()) {
                 continue;
             }
-            let (surface, positions) = (&body.asset().surface, body.asset().surface_positions());
+            let (surface, positions) = (body.asset().surface(), body.asset().surface_positions());
             let whole = kick_on(positions, &surface.triangles, &at(Vec3::ZERO));
             let outcome = frangible::internals::blast(body, &at(Vec3::ZERO), &self.config.fracture);
             let done = outcome.map_err(WorldError::from).and_then(|outcome| {

@@ -87,7 +87,7 @@ impl BreakableWorld {
         let fits = fracture.fragments.len() + taken <= room;
         if !fits {
             self.state.refused_breaks += 1;
-            let name = self.breakable(handle).map_or("", |b| &b.asset().name);
+            let name = self.breakable(handle).map_or("", |b| b.asset().name());
             log::warn!(
                 "{} fragments of `{name}` exceed `max_bodies`; it stays whole",
                 fracture.fragments.len()

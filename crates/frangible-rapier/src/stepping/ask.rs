@@ -30,7 +30,7 @@ impl BreakableWorld {
             0.0,
             Striker::rigid(),
         );
-        on_it.striker.restitution = body.asset().material.restitution as f32;
+        on_it.striker.restitution = body.asset().material().restitution as f32;
         Ok(Striker::flexible(body, &on_it, &self.config.fracture)?)
     }
 

@@ -15,7 +15,7 @@ fn bake_small(name: &str, shape: Shape, coarser: f64, supports: Vec<Support>) ->
         supports,
         ..BakeSpec::new(name, shape, Material::preset("glass").unwrap())
     };
-    Arc::new(bake(&spec, &mut |_| {}).unwrap().0)
+    Arc::new(bake(&spec).unwrap())
 }
 
 /// Pane 0.3 × 0.3 m, 4 mm thick, its normal z.

@@ -7,13 +7,13 @@ use std::sync::Arc;
 
 use frangible::glam::{DMat3, DVec3, Vec3};
 use frangible::internals::asset::{
-    AnalysisMesh, ConvexCell, EmbeddedPoint, Embedding, OuterSurface,
+    AnalysisMesh, AssetParts, ConvexCell, EmbeddedPoint, Embedding, OuterSurface,
 };
 use frangible::internals::modal::ModalBasis;
 use frangible::internals::{MassProperties, TetMesh};
 use frangible::{
-    Asset, Body, Contact, Fracture, FractureConfig, Fragment, ImpactReport, InputError, Material,
-    Outcome, TriMesh,
+    Asset, Body, Breakable, Contact, Fracture, FractureConfig, Fragment, ImpactReport, InputError,
+    Material, Outcome, TriMesh,
 };
 use frangible_rapier::rapier3d::math::{Pose, Vector};
 use frangible_rapier::{BreakableWorld, WorldConfig};
@@ -82,7 +82,7 @@ pub(crate) fn box_asset(half: Vec3, cells: [usize; 3]) -> Arc<Asset> {
         elements: vec![std::array::from_fn(|i| i as u32)],
         barycentric_gradients: vec![[Vec3::ZERO; 4]],
     };
-    Arc::new(Asset {
+    Arc::new(Asset::from_parts(AssetParts {
         name: "box".into(),
         material: Material::preset("glass").unwrap(),
         mass: block_mass(Vec3::ZERO, half),
@@ -97,11 +97,11 @@ pub(crate) fn box_asset(half: Vec3, cells: [usize; 3]) -> Arc<Asset> {
         supported: Vec::new(),
         render: None,
         portion: None,
-    })
+    }))
 }
 
 pub(crate) fn body(asset: &Arc<Asset>) -> Body {
-    Body::new(Arc::clone(asset), 1).unwrap()
+    Breakable::uniform(Arc::clone(asset)).unwrap().body(1)
 }
 
 fn block_mass(centre: Vec3, half: Vec3) -> MassProperties {

@@ -1,5 +1,6 @@
 //! Bodies that tumble down stairs.
 
+use frangible_rapier::rapier3d::dynamics::RigidBodyBuilder;
 use std::f32::consts::TAU;
 use std::sync::Arc;
 
@@ -29,7 +30,7 @@ pub(crate) fn baked(name: &str) -> Arc<Asset> {
         fracture: Some(size),
         ..BakeSpec::new(name, shape, Material::preset(material).unwrap())
     };
-    Arc::new(bake(&spec, &mut |_| {}).unwrap().0)
+    Arc::new(bake(&spec).unwrap())
 }
 
 /// Outcome of letting twenty of these bodies fall on stone stairs and tumble down them.
@@ -57,7 +58,7 @@ pub(crate) fn tumble(kinds: &[Arc<Asset>], height: f32, seconds: f32) -> Tumble 
     }
     let kinds: Vec<Breakable> = kinds
         .iter()
-        .map(|asset| Breakable::new(Arc::clone(asset)).unwrap())
+        .map(|asset| Breakable::uniform(Arc::clone(asset)).unwrap())
         .collect();
     for i in 0..BODIES {
         let (row, column) = (i / 10, i % 10);
@@ -71,7 +72,15 @@ pub(crate) fn tumble(kinds: &[Arc<Asset>], height: f32, seconds: f32) -> Tumble 
         let pose = Pose::new(at, Vector::new(turn, 0.5 * turn, 0.3));
         let body = kinds[i % kinds.len()].body(i as u64);
         let (forward, spin) = (Vector::new(0.8, 0.0, 0.0), Vector::new(0.0, 0.0, -4.0));
-        world.insert_breakable(body, pose, forward, spin).unwrap();
+        world
+            .insert(
+                body,
+                RigidBodyBuilder::dynamic()
+                    .pose(pose)
+                    .linvel(forward)
+                    .angvel(spin),
+            )
+            .unwrap();
     }
     let mut broken = 0;
     let dt = world.physics.integration_parameters.dt;

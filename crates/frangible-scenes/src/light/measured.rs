@@ -145,8 +145,8 @@ impl Case {
                 Material::preset(self.material).unwrap(),
             )
         };
-        let (asset, _) = frangible_bake::bake(&spec, &mut |_| {}).unwrap();
-        let (low, high) = bounds(&asset.fracture.positions);
+        let asset = frangible_bake::bake(&spec).unwrap();
+        let (low, high) = bounds(&asset.fracture().positions);
         let body = Breakable::new(asset).unwrap().body(3);
         let above = Vec3::new(0.2 * high.x, 2.0 * high.y, 0.1 * high.z);
         let at = body.nearest_on_surface(above).position;

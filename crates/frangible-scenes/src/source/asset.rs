@@ -28,9 +28,9 @@ pub fn save_compact_asset(asset: &Asset, path: &Path) -> Result<(), SceneError> 
 #[must_use]
 pub fn compacted(asset: &Asset) -> (Asset, f64) {
     let compact = asset.clone().with_compact_shapes().restressed();
-    let stresses = compact.modes.peak_stress.iter();
+    let stresses = compact.modes().peak_stress.iter();
     let change = stresses
-        .zip(&asset.modes.peak_stress)
+        .zip(&asset.modes().peak_stress)
         .map(|(&new, &old)| (f64::from(new) / f64::from(old) - 1.0).abs())
         .fold(0.0, f64::max);
     (compact, change)

@@ -6,7 +6,7 @@ pub(crate) mod made;
 use std::sync::{Arc, OnceLock};
 
 use frangible::glam::Vec3;
-use frangible::{Asset, Body, Contact, FractureConfig, Material, Outcome, Striker, impact};
+use frangible::{Asset, Breakable, Contact, FractureConfig, Material, Outcome, Striker, impact};
 use frangible_bake::{BakeSpec, Shape, bake};
 
 /// A fracture mesh with edges `coarser` times the default's, and few modes.
@@ -19,7 +19,7 @@ fn bake_small(name: &str, shape: Shape, material: &str, modes: usize, coarser: f
         fracture: Some(size),
         ..BakeSpec::new(name, shape, material)
     };
-    Arc::new(bake(&spec, &mut |_| {}).unwrap().0)
+    Arc::new(bake(&spec).unwrap())
 }
 
 /// Drinking glass, axis z, rim on top.
@@ -44,18 +44,12 @@ pub(crate) fn block() -> &'static Arc<Asset> {
 pub(crate) fn steel_ball(mass: f64) -> Striker {
     let steel = Material::preset("steel").unwrap();
     let radius = (mass / steel.density * 0.75 / std::f64::consts::PI).cbrt();
-    Striker {
-        restitution: 0.5,
-        ..Striker::ball(&steel, mass, radius)
-    }
+    Striker::ball(&steel, mass, radius).with_restitution(0.5)
 }
 
 /// Level stone floor.
 pub(crate) fn stone_floor() -> Striker {
-    Striker {
-        restitution: 0.5,
-        ..Striker::fixed(&Material::preset("stone").unwrap())
-    }
+    Striker::fixed(&Material::preset("stone").unwrap()).with_restitution(0.5)
 }
 
 /// A blow at `point` in direction `normal`, with the impulse of a central rigid-body collision at `speed`.
@@ -72,14 +66,14 @@ pub(crate) fn blow(
 /// The outermost node near the rim at this azimuth, degrees.
 pub(crate) fn rim_point(asset: &Asset, degrees: f32) -> Vec3 {
     let top = asset
-        .fracture
+        .fracture()
         .positions
         .iter()
         .map(|p| p.z)
         .fold(f32::MIN, f32::max);
     let (sin, cos) = degrees.to_radians().sin_cos();
     let radius = asset
-        .fracture
+        .fracture()
         .positions
         .iter()
         .map(|p| p.truncate().length())
@@ -124,7 +118,7 @@ pub(crate) fn strike(
     config: &FractureConfig,
 ) -> Outcome {
     impact(
-        &Body::new(Arc::clone(asset), seed).unwrap(),
+        &Breakable::uniform(Arc::clone(asset)).unwrap().body(seed),
         contacts,
         config,
     )

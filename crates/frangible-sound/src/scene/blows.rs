@@ -11,7 +11,7 @@ use super::cast::{Cast, Sounding};
 use super::nodes::{Nodes, carried};
 use super::{place, released};
 use crate::error::SoundError;
-use crate::pulse::Pulse;
+use crate::pulse::SoundPulse;
 use crate::strike::{CRACK_SHARE, CRACK_SPEED, Strike};
 use crate::synth::Synth;
 
@@ -37,16 +37,16 @@ pub fn recorded_blow(
     let pulses = report
         .contacts
         .iter()
-        .map(|contact| frangible_recording::Pulse {
+        .map(|contact| frangible_recording::RecordedPulse {
             point: contact.point,
             direction: contact.normal,
             time_step: report.time_step,
             force: contact.force.clone(),
         });
-    let origin = asset.mass.centre;
+    let origin = asset.mass().centre;
     let crack = |cuts: &Vec<(u32, f64)>| RecordedCrack {
         places: (cuts.iter())
-            .map(|&(tet, _)| asset.root().fracture.centroid(tet as usize).as_dvec3() - origin)
+            .map(|&(tet, _)| asset.root().fracture().centroid(tet as usize).as_dvec3() - origin)
             .map(|place| place.as_vec3())
             .collect(),
         times: cuts.iter().map(|&(_, time)| time).collect(),
@@ -72,7 +72,7 @@ pub(super) fn blows(
     let pose = cast.pose(blow.node, blow.time);
     let mut pulses = Vec::new();
     for recorded in &blow.pulses {
-        let pulse = Arc::new(Pulse {
+        let pulse = Arc::new(SoundPulse {
             time_step: recorded.time_step,
             force: recorded.force.clone(),
         });
@@ -104,7 +104,7 @@ fn answer(
     cast: &dyn Cast,
     time: f64,
     [at, direction]: [Vec3; 2],
-    pulse: Arc<Pulse>,
+    pulse: Arc<SoundPulse>,
 ) -> Result<(), SoundError> {
     if cast
         .floor()

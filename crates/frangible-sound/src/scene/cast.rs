@@ -24,7 +24,7 @@ impl Sounding {
     #[must_use]
     pub fn material(&self) -> &Material {
         match self {
-            Self::Modes(body) => &body.asset().material,
+            Self::Modes(body) => body.asset().material(),
             Self::Piece(material, _) | Self::Ball(material, ..) => material,
         }
     }
@@ -33,7 +33,7 @@ impl Sounding {
     #[must_use]
     pub fn mass(&self) -> f64 {
         match self {
-            Self::Modes(body) => body.asset().mass.mass,
+            Self::Modes(body) => body.asset().mass().mass,
             Self::Piece(_, mass) | Self::Ball(_, _, mass) => *mass,
         }
     }

@@ -23,7 +23,7 @@ use crate::synth::Synth;
 
 pub use blows::recorded_blow;
 pub use cast::{Cast, Sounding};
-pub use touching::{EngineStep, Motion, Push, Touching};
+pub use touching::{EngineMotion, EngineStep, Push, Touching};
 
 use nodes::Nodes;
 

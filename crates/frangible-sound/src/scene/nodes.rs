@@ -9,7 +9,7 @@ use glam::{Quat, Vec3};
 
 use super::cast::{Cast, Sounding};
 use super::place;
-use crate::body::Body;
+use crate::body::SoundBody;
 use crate::damping::{AudibleDamping, Hold};
 use crate::error::SoundError;
 use crate::of_asset::AssetSound;
@@ -30,7 +30,7 @@ struct Ready {
     /// Number of the body in the synthesiser.
     id: usize,
     shape: Shape,
-    body: Arc<Body>,
+    body: Arc<SoundBody>,
 }
 
 /// Nodes are made ready when they are first struck.
@@ -38,7 +38,7 @@ struct Ready {
 pub(super) struct Nodes {
     ready: BTreeMap<usize, Ready>,
     /// Bodies of one asset sound alike.
-    assets: Vec<(Arc<Asset>, Arc<AssetSound>, Arc<Body>)>,
+    assets: Vec<(Arc<Asset>, Arc<AssetSound>, Arc<SoundBody>)>,
 }
 
 impl Nodes {
@@ -49,7 +49,7 @@ impl Nodes {
         cast: &dyn Cast,
         node: usize,
         time: f64,
-    ) -> Result<(usize, Arc<Body>), SoundError> {
+    ) -> Result<(usize, Arc<SoundBody>), SoundError> {
         let pose = cast.pose(node, time);
         let (at, turned) = (place(pose.translation), pose.rotation.as_dquat());
         if let Some(ready) = self.ready.get(&node) {
@@ -90,12 +90,17 @@ impl Nodes {
         self.ready.get(&node).map(|ready| ready.id)
     }
 
-    fn make(&mut self, cast: &dyn Cast, node: usize) -> Result<(Shape, Arc<Body>), SoundError> {
+    fn make(
+        &mut self,
+        cast: &dyn Cast,
+        node: usize,
+    ) -> Result<(Shape, Arc<SoundBody>), SoundError> {
         let name = cast.name(node);
         match cast.sounding(node) {
-            Sounding::Ball(_, radius, mass) => {
-                Ok((Shape::Ball, Arc::new(Body::ball(name, *radius, *mass)?)))
-            }
+            Sounding::Ball(_, radius, mass) => Ok((
+                Shape::Ball,
+                Arc::new(SoundBody::ball(name, *radius, *mass)?),
+            )),
             Sounding::Modes(body) => {
                 let known = self
                     .assets
@@ -110,7 +115,7 @@ impl Nodes {
                 } else {
                     Hold::Free
                 };
-                let damping = AudibleDamping::of(&asset.material);
+                let damping = AudibleDamping::of(asset.material());
                 let (sound, heard) = AssetSound::new(body, &damping, hold)?;
                 let (sound, heard) = (Arc::new(sound), Arc::new(heard));
                 let entry = (Arc::clone(asset), Arc::clone(&sound), Arc::clone(&heard));

@@ -12,9 +12,9 @@ use glam::{DMat3, DVec3, Vec3};
 use super::cast::Cast;
 use super::nodes::{Nodes, carried};
 use super::touching::drawn_share;
-use crate::body::Body;
+use crate::body::SoundBody;
 use crate::error::SoundError;
-use crate::pulse::{Drive, Pulse};
+use crate::pulse::{Drive, SoundPulse};
 use crate::strike::{CRACK_SPEED, Strike, pole};
 use crate::synth::Synth;
 
@@ -25,7 +25,11 @@ const PLACES: usize = 64;
 const SHORTEST: f64 = 5e-6;
 
 /// Velocities of the modes of a body, √(2 J), some seconds after pulses began, which act with these modal forces per newton, 1/√kg.
-pub(super) fn velocities(body: &Body, pulses: &[(Arc<Pulse>, Vec<f32>)], after: f64) -> Vec<f32> {
+pub(super) fn velocities(
+    body: &SoundBody,
+    pulses: &[(Arc<SoundPulse>, Vec<f32>)],
+    after: f64,
+) -> Vec<f32> {
     let one = |(i, mode): (usize, &crate::body::Mode)| {
         let pole = pole(mode.frequency, mode.loss)?;
         let given = pulses.iter().map(|(pulse, push)| {
@@ -63,7 +67,7 @@ pub(super) fn released(
         let push = kept.iter().map(|&v| (f64::from(v) / impulse) as f32);
         let duration = (2.0 * body.sphere.radius / speed).max(SHORTEST);
         let strike = Strike {
-            pulse: Arc::new(Pulse::half_sine(impulse, duration)),
+            pulse: Arc::new(SoundPulse::half_sine(impulse, duration)),
             push: push.collect(),
             direction: Vec3::ZERO,
         };
@@ -77,7 +81,7 @@ fn kept(
     nodes: &Nodes,
     cast: &dyn Cast,
     blow: &RecordedBlow,
-    (piece, body): (usize, &Body),
+    (piece, body): (usize, &SoundBody),
     moving: &[f32],
 ) -> Vec<f32> {
     let mut kept = vec![0.0_f32; body.modes.len()];
@@ -256,9 +260,9 @@ mod tests {
             followed: Some(12),
             ..BakeSpec::new("plate", Shape::plate(0.24, 0.1, 0.004), glass.clone())
         };
-        let (asset, _) = bake(&spec, &mut |_| {}).expect("a bake");
-        let body = Breakable::new(Arc::new(asset)).expect("a kind").body(1);
-        let mass = body.asset().mass.mass;
+        let asset = bake(&spec).expect("a bake");
+        let body = Breakable::uniform(Arc::new(asset)).expect("a kind").body(1);
+        let mass = body.asset().mass().mass;
         let half = Sounding::Piece(glass, 0.5 * mass);
         let grid = |z: f32| {
             let at = |k: usize, side: f32| side * (k as f32 / 16.0 - 0.5);
@@ -317,7 +321,7 @@ mod tests {
         let made = crate::plate::Plate::new("plate", sides, glam::DQuat::IDENTITY, &plate);
         let (shape, body) = made.expect("a plate");
         let push = shape.push(Vec3::new(0.05, 0.04, 0.0), Vec3::Z);
-        let pulses = [(Arc::new(Pulse::half_sine(0.1, 1e-6)), push.clone())];
+        let pulses = [(Arc::new(SoundPulse::half_sine(0.1, 1e-6)), push.clone())];
         let mode = &body.modes[0];
         let swing = std::f64::consts::TAU * mode.frequency;
         for after in [1e-6, 1.3e-4, 7e-4] {

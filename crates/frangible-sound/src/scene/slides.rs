@@ -17,7 +17,7 @@ use super::nodes::Nodes;
 use super::touching::drawn_share;
 use crate::error::SoundError;
 use crate::of_asset::HIGHEST;
-use crate::pulse::Pulse;
+use crate::pulse::SoundPulse;
 use crate::strike::Strike;
 use crate::synth::Synth;
 
@@ -66,7 +66,7 @@ pub(super) fn slides(
         return Ok(());
     }
     let force = pulse.force.iter().map(|f| f * scale as f32).collect();
-    let pulse = Arc::new(Pulse {
+    let pulse = Arc::new(SoundPulse {
         force,
         time_step: STEP,
     });
@@ -84,7 +84,7 @@ fn heard(speed: f64, lowest: f64) -> f64 {
 }
 
 /// Noise of the size of one newton, the same for the same slide.
-fn noise(slide: &RecordedSlide) -> Pulse {
+fn noise(slide: &RecordedSlide) -> SoundPulse {
     let count = (slide.duration / STEP).round().max(1.0) as u64;
     let keep = (-std::f64::consts::TAU * slide.speed / GRAIN * STEP).exp();
     let key = [slide.time.to_bits(), slide.point.x.to_bits().into()];
@@ -94,7 +94,7 @@ fn noise(slide: &RecordedSlide) -> Pulse {
         value = keep * value + (1.0 - keep) * drawn;
         value as f32
     });
-    Pulse {
+    SoundPulse {
         time_step: STEP,
         force: force.collect(),
     }

@@ -10,9 +10,9 @@ use glam::Vec3;
 use super::cast::Cast;
 use super::nodes::Nodes;
 use super::place;
-use crate::body::Body;
+use crate::body::SoundBody;
 use crate::error::SoundError;
-use crate::pulse::Pulse;
+use crate::pulse::SoundPulse;
 use crate::strike::{Strike, first_push};
 use crate::synth::Synth;
 
@@ -29,7 +29,7 @@ const LONGEST: f64 = 0.02;
 /// One side of a touch: a node that is ready to sound, and the push on it.
 struct Side {
     id: usize,
-    body: Arc<Body>,
+    body: Arc<SoundBody>,
     push: Vec<f32>,
     /// Position at which the push acts, m, and its direction, in the node's frame.
     point: Vec3,
@@ -68,22 +68,22 @@ pub(super) fn touches(
         .iter()
         .map(|side| side.body.yields(side.point, side.direction))
         .sum();
-    let pushed: Vec<(&Body, &[f32])> = (sides.iter())
+    let pushed: Vec<(&SoundBody, &[f32])> = (sides.iter())
         .map(|side| (&*side.body, side.push.as_slice()))
         .collect();
     let takes = |mass: f64| hertz(mass, touch.speed, own, floor);
     let (first, duration) = first_push(touch.speed, yields, &pushed, takes);
     let impulse = first.min(touch.impulse);
-    let sharp = Arc::new(Pulse::half_sine(impulse, duration));
+    let sharp = Arc::new(SoundPulse::half_sine(impulse, duration));
     let lowest = sides
         .iter()
         .filter_map(|side| side.body.modes.first())
         .map(|mode| mode.frequency)
         .fold(f64::INFINITY, f64::min);
     let swing = (0.5 / lowest).clamp(duration, LONGEST);
-    let rest = Arc::new(Pulse::half_sine(touch.impulse - impulse, swing));
+    let rest = Arc::new(SoundPulse::half_sine(touch.impulse - impulse, swing));
     for side in sides {
-        let strike = |pulse: &Arc<Pulse>, push| Strike {
+        let strike = |pulse: &Arc<SoundPulse>, push| Strike {
             pulse: Arc::clone(pulse),
             push,
             direction: side.direction,

@@ -27,7 +27,7 @@ const SLIDING: f32 = 0.02;
 const LEAST_POWER: f64 = 1e-4;
 
 /// Motion of a body: velocity, m/s, angular velocity, rad/s, and centre of mass, m.
-pub type Motion = [Vec3; 3];
+pub type EngineMotion = [Vec3; 3];
 
 /// A contact in a step: between a tracked object and another object or a fixed body. Bodies and colliders are identified by the
 /// engine's numbers.
@@ -73,7 +73,7 @@ pub struct Touching {
     /// Impulse of each pair of colliders in the latest step, N·s.
     pushed: BTreeMap<[u64; 2], f32>,
     /// Motion of each body after the latest step.
-    moving: BTreeMap<u64, Motion>,
+    moving: BTreeMap<u64, EngineMotion>,
     /// Number of steps so far.
     steps: u64,
     /// Time of the last check for slides and rolling, s.
@@ -94,7 +94,7 @@ impl Touching {
         &mut self,
         step: &EngineStep,
         pushes: &[Push],
-        motions: BTreeMap<u64, Motion>,
+        motions: BTreeMap<u64, EngineMotion>,
     ) -> (Vec<RecordedTouch>, Vec<RecordedSlide>) {
         let (time, length) = (step.time, step.length);
         let before = std::mem::take(&mut self.pushed);
@@ -145,7 +145,7 @@ impl Touching {
 /// The slide at a push, if there is one: by Coulomb's law, from the normal force and the speed along the surfaces.
 fn slide(
     push: &Push,
-    moving: &BTreeMap<u64, Motion>,
+    moving: &BTreeMap<u64, EngineMotion>,
     step: f64,
     [time, since]: [f64; 2],
 ) -> Option<RecordedSlide> {
@@ -168,7 +168,7 @@ fn slide(
 /// rolling is its torque, the normal force at an arm, times how fast the two turn about each other. `arm`: that arm over the step's time, m/s.
 fn roll(
     push: &Push,
-    moving: &BTreeMap<u64, Motion>,
+    moving: &BTreeMap<u64, EngineMotion>,
     (before, ago): ([Vec3; 2], f64),
     arm: f32,
     [time, since]: [f64; 2],
@@ -197,7 +197,7 @@ fn roll(
 }
 
 /// Velocity of a body at a point, m/s; zero for a fixed one.
-fn speed_at(moving: &BTreeMap<u64, Motion>, body: Option<u64>, point: Vec3) -> Vec3 {
+fn speed_at(moving: &BTreeMap<u64, EngineMotion>, body: Option<u64>, point: Vec3) -> Vec3 {
     let motion = body.and_then(|body| moving.get(&body));
     motion.map_or(Vec3::ZERO, |[velocity, spin, centre]| {
         *velocity + spin.cross(point - *centre)

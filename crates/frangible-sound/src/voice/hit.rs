@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::air::{AIR_DENSITY, SPEED_OF_SOUND};
 use crate::bank::BLOCK;
-use crate::body::Body;
+use crate::body::SoundBody;
 use crate::complex::Complex;
 use crate::pulse::Drive;
 use crate::strike::Strike;
@@ -34,7 +34,7 @@ impl Hit {
     pub(super) fn new(
         start: f64,
         strike: Strike,
-        body: &Body,
+        body: &SoundBody,
         ways: [DVec3; 2],
         distance: f64,
     ) -> Self {
@@ -53,7 +53,7 @@ impl Hit {
     /// at s = (c/a)(−1 ± i). Chadwick, Zheng and James (ACM TOG 31(6), 2012) call it acceleration noise. Turning is silent, as a sphere's is.
     ///
     /// `towards` is the direction of the listener in the body's frame, `distance` its distance, m.
-    fn shaken(body: &Body, strike: &Strike, towards: DVec3, distance: f64) -> Complex {
+    fn shaken(body: &SoundBody, strike: &Strike, towards: DVec3, distance: f64) -> Complex {
         let sphere = &body.sphere;
         if body.mass.is_infinite() {
             return Complex::default();

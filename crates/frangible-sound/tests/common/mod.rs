@@ -1,10 +1,10 @@
 //! Plates of glass to strike.
 
 use frangible_sound::glam::DQuat;
-use frangible_sound::{AudibleDamping, Body, Plate, PlateMaterial};
+use frangible_sound::{AudibleDamping, Plate, PlateMaterial, SoundBody};
 
 /// A plate with these sides, m.
-pub(crate) fn plate(sides: [f64; 3]) -> (Plate, Body) {
+pub(crate) fn plate(sides: [f64; 3]) -> (Plate, SoundBody) {
     let glass = PlateMaterial {
         youngs_modulus: 71e9,
         poisson_ratio: 0.23,

@@ -23,7 +23,7 @@ speed = 12
 
 fn live() -> LiveScene {
     let scene = parse_scene(SCENE, std::path::Path::new("pane.toml")).unwrap();
-    LiveScene::new(&scene, &bake(&scene, &mut |_| {}).unwrap()).unwrap()
+    LiveScene::new(&scene, &bake(&scene).unwrap()).unwrap()
 }
 
 fn step(live: &mut LiveScene, count: usize) {

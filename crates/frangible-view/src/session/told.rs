@@ -78,7 +78,7 @@ impl Session {
 
     /// Mode to look at, from 0.
     pub(crate) fn mode_of(&self, analysis: &Analysis) -> usize {
-        self.mode.clamp(1, analysis.asset.modes.count().max(1)) - 1
+        self.mode.clamp(1, analysis.asset.modes().count().max(1)) - 1
     }
 
     /// View of films.

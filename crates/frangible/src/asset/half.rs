@@ -66,6 +66,7 @@ impl Asset {
     /// Returns the asset with mode shapes rounded to half precision, as read back from a compact file: a relative spacing of 1/2048,
     /// so a relative error of at most 1/4096. Stress bounds are removed, and peak stresses are not updated; call
     /// [`Asset::restressed`] to recompute them.
+    #[doc(hidden)]
     #[must_use]
     pub fn with_compact_shapes(mut self) -> Self {
         self.bounds = StressBounds::default();

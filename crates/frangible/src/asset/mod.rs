@@ -1,5 +1,6 @@
 //! Baked assets: the immutable data of a kind of object.
 
+mod access;
 mod bounds;
 mod embedding;
 mod file;
@@ -20,6 +21,7 @@ pub use crate::mesh::{
     Blending, Image, ImageKind, Placement, RenderMaterial, RenderSurface, Texture, TextureSlot,
     Wrap, linear_color,
 };
+pub use access::{AssetParts, AssetPartsMut};
 pub use bounds::StressBounds;
 pub(crate) use embedding::carriers;
 #[doc(hidden)]
@@ -42,38 +44,38 @@ pub(crate) use validate::{analysis, embedded, modes};
 #[derive(Clone, Debug)]
 pub struct Asset {
     /// Name shown in reports.
-    pub name: String,
+    pub(crate) name: String,
     /// Material that the modes were computed for.
-    pub material: Material,
+    pub(crate) material: Material,
     /// Fine linear tetrahedra that carry cracks and fragments.
-    pub fracture: Arc<TetMesh>,
+    pub(crate) fracture: Arc<TetMesh>,
     /// Outer faces of the fracture mesh with their smooth normals.
-    pub surface: OuterSurface,
+    pub(crate) surface: OuterSurface,
     /// Coarse quadratic tetrahedra that carry the modes.
-    pub analysis: AnalysisMesh,
+    pub(crate) analysis: AnalysisMesh,
     /// Points of the fracture mesh, located in the analysis mesh.
-    pub embedding: Embedding,
+    pub(crate) embedding: Embedding,
     /// Frequencies, shapes and stress bounds of the vibration modes.
-    pub modes: ModalBasis,
+    pub(crate) modes: ModalBasis,
     /// Stress bounds, which rule out harmless contacts early; if empty, they are computed when a body is made.
-    pub bounds: StressBounds,
+    pub(crate) bounds: StressBounds,
     /// Mass, centre (the origin) and inertia of the whole body, kg, m, kg·m².
-    pub mass: MassProperties,
+    pub(crate) mass: MassProperties,
     /// Convex cells that cover the body: its collider, which is divided among the fragments.
-    pub cells: Vec<ConvexCell>,
+    pub(crate) cells: Vec<ConvexCell>,
     /// Convex cell of each fracture tetrahedron: one index into [`Asset::cells`] per tetrahedron.
-    pub cell_of_tet: Vec<u32>,
+    pub(crate) cell_of_tet: Vec<u32>,
     /// Nodes of the fracture mesh that are fixed by supports, ascending; empty for a free body. The modes are those of the supported body,
     /// and a fragment with such a node stays in place.
-    pub supported: Vec<u32>,
+    pub(crate) supported: Vec<u32>,
     /// The authored surface, used only for rendering and clipping, never for physics. `None` if the surface of the fracture mesh is
     /// rendered.
-    pub render: Option<RenderSurface>,
+    pub(crate) render: Option<RenderSurface>,
     /// For a piece that may break again, its part of the broken body; `None` for a baked body. A piece keeps the broken
     /// body's fracture mesh, in that body's frame; its surface has vertices of its own, in the piece's frame
     /// ([`Asset::surface_positions`]); [`Embedding::tets`] and [`StressBounds::cluster_of_tet`] have an entry for each of
     /// [`Portion::tets`], [`Embedding::nodes`] for each vertex of the surface; cells are empty.
-    pub portion: Option<Arc<Portion>>,
+    pub(crate) portion: Option<Arc<Portion>>,
 }
 
 impl Asset {
@@ -89,6 +91,7 @@ impl Asset {
     }
 
     /// Returns the baked asset: the asset itself, or for a piece the asset of the baked body it comes from.
+    #[doc(hidden)]
     #[must_use]
     pub fn root(&self) -> &Self {
         match &self.portion {
@@ -98,6 +101,7 @@ impl Asset {
     }
 
     /// Returns the positions of the vertices of [`Asset::surface`], m, in the body frame.
+    #[doc(hidden)]
     #[must_use]
     pub fn surface_positions(&self) -> &[Vec3] {
         match &self.portion {
@@ -108,6 +112,7 @@ impl Asset {
 
     /// Returns the index of a fracture tetrahedron in per-tetrahedron lists of the body: its number in a baked body, its position in
     /// [`Portion::tets`] in a piece.
+    #[doc(hidden)]
     #[must_use]
     pub fn place(&self, tet: usize) -> usize {
         match &self.portion {
@@ -117,6 +122,7 @@ impl Asset {
     }
 
     /// Returns the centroid of a fracture tetrahedron, located in the analysis mesh. In a piece, `tet` must be in [`Portion::tets`].
+    #[doc(hidden)]
     #[must_use]
     pub fn embedded_tet(&self, tet: usize) -> &EmbeddedPoint {
         &self.embedding.tets[self.place(tet)]

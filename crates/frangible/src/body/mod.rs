@@ -35,17 +35,29 @@ pub struct Breakable {
 }
 
 impl Breakable {
-    /// Checks an asset and prepares it.
+    /// Checks an asset and prepares it. The strength scatters from one weak point to the next and decreases under a sustained load as it does for the
+    /// material with this name ([`Preset::named`](crate::internals::Preset::named)); a material with another name has uniform strength.
     ///
     /// # Errors
     /// The arrays of the asset are inconsistent, or a number of its material is invalid.
     pub fn new(asset: impl Into<Arc<Asset>>) -> Result<Self, InputError> {
+        let uniform = Self::uniform(asset)?;
+        let fields = Fields::of_material(&uniform.asset.material);
+        uniform.with_fields(fields)
+    }
+
+    /// Checks an asset and prepares it like [`Breakable::new`], but every weak point has exactly the strength of the material, under a load of any
+    /// duration. For comparisons with theory, and for tests.
+    ///
+    /// # Errors
+    /// The errors of [`Breakable::new`].
+    pub fn uniform(asset: impl Into<Arc<Asset>>) -> Result<Self, InputError> {
         let asset = asset.into();
         asset.validate()?;
         Ok(Self::of_sound(asset))
     }
 
-    /// The kind of an asset that has been checked.
+    /// The kind of an asset that has been checked, with uniform strength.
     pub(crate) fn of_sound(asset: Arc<Asset>) -> Self {
         let fields = Arc::new(Fields::default());
         Self {
@@ -98,6 +110,7 @@ impl Breakable {
     }
 
     /// Bounds of the stress of a motion, cluster by cluster.
+    #[doc(hidden)]
     #[must_use]
     pub fn stress_bounds(&self) -> &StressBounds {
         &self.prepared.bounds
@@ -198,6 +211,7 @@ impl Body {
     }
 
     /// Centre of mass in the frame of the fracture mesh, m; zero except for pieces.
+    #[doc(hidden)]
     #[must_use]
     pub fn origin(&self) -> DVec3 {
         match &self.asset.portion {
@@ -253,6 +267,7 @@ impl Body {
 
     /// Returns this body with its strength multiplied by `factor` (above 0) and its toughness unchanged. A large factor shows the stress of a
     /// blow in a body that does not crack.
+    #[doc(hidden)]
     #[must_use]
     pub fn strengthened(&self, factor: f32) -> Self {
         Self {
@@ -291,6 +306,7 @@ impl Body {
     }
 
     /// The fronts of the current cracks, in the order of the state. Cracks that end at a surface everywhere have none.
+    #[doc(hidden)]
     #[must_use]
     pub fn crack_fronts(&self) -> Vec<CrackFront> {
         fronts(&self.asset, &self.state, &self.tips)
@@ -309,18 +325,21 @@ impl Body {
     }
 
     /// Indices of the weak fracture tetrahedra, ascending. Cracks start only there `[G12 §4.4]`.
+    #[doc(hidden)]
     #[must_use]
     pub fn weak_tets(&self) -> &[u32] {
         &self.weak_tets
     }
 
     /// Strength R_c of a fracture tetrahedron, Pa: a crack starts there if the stress exceeds it.
+    #[doc(hidden)]
     #[must_use]
     pub fn strength(&self, tet: u32) -> f32 {
         self.resistance.strength(tet)
     }
 
     /// Fracture energy G_c of a fracture tetrahedron, J/m².
+    #[doc(hidden)]
     #[must_use]
     pub fn toughness(&self, tet: u32) -> f64 {
         self.resistance.toughness.of(tet)
@@ -328,6 +347,7 @@ impl Body {
 
     /// Returns the point at which the stress of a weak tetrahedron is evaluated, and the stress law there: its flaw on the free surface, or
     /// else its centroid. `pressed`: surface triangles under a contact, whose flaws are ignored.
+    #[doc(hidden)]
     #[must_use]
     pub fn weak_place(
         &self,
@@ -341,6 +361,7 @@ impl Body {
     }
 
     /// Smallest strength of the weak tetrahedra, Pa; the strength of the material if there are none.
+    #[doc(hidden)]
     #[must_use]
     pub fn weakest(&self) -> f64 {
         self.resistance.weakest

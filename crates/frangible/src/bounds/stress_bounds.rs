@@ -83,6 +83,7 @@ impl StressBounds {
 impl Asset {
     /// The asset with its stress bounds and the peak stress of its modes found anew, as the bake does: for one whose
     /// mode shapes were changed.
+    #[doc(hidden)]
     #[must_use]
     pub fn restressed(mut self) -> Self {
         let (bounds, peak_stress) = StressBounds::with_skin(&self, &Skin::of(&self), None);

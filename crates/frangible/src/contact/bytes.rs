@@ -15,6 +15,7 @@ const OWN: usize = NUMBERS - 8;
 
 impl Contact {
     /// Length of a contact in bytes, without the receptance of a vibrating striker.
+    #[doc(hidden)]
     pub const BYTES: usize = 104;
 
     /// Serializes the contact: its fields in order, little-endian, four bytes each; then 0, or the number of modes of a vibrating striker
@@ -55,6 +56,7 @@ impl Contact {
     ///
     /// # Errors
     /// Too few bytes, or the errors of [`Contact::validate`].
+    #[doc(hidden)]
     pub fn read(bytes: &[u8]) -> Result<(Self, &[u8]), InputError> {
         let short = || InputError::ContactBytes(bytes.len());
         let (head, rest) = bytes

@@ -1,11 +1,10 @@
-//! Contacts and strikers of an impact.
+//! Contacts of an impact.
 
 use std::borrow::Cow;
-use std::sync::Arc;
 
 use glam::Vec3;
 
-use super::Receptance;
+use super::{SharedMass, Striker};
 use crate::asset::Asset;
 use crate::config::DurationModel;
 use crate::error::{InputError, finite, not_negative, positive};
@@ -20,163 +19,19 @@ pub struct Contact {
     pub normal: Vec3,
     /// Magnitude φ of the normal impulse, N·s. It is an input only for scripts and for duration models without integration. For an
     /// integrated blow the impulse is a result, and this value only sets the ratio of friction to normal impulse.
+    #[doc(hidden)]
     pub impulse: f32,
     /// Frictional part of the impulse on this body, N·s: the component perpendicular to the normal.
+    #[doc(hidden)]
     pub friction: Vec3,
     /// Approach speed along the normal before the rigid-body step, m/s.
     pub approach_speed: f32,
     /// Duration of a scripted blow, s: its impulse is applied as a half-sine, regardless of the striker. 0 for a striker, whose blow is
     /// [integrated](crate::internals::DurationModel::Integrated).
+    #[doc(hidden)]
     pub duration: f32,
     /// The striker.
     pub striker: Striker,
-}
-
-/// Properties of the striking body that determine a contact.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Striker {
-    /// Plane-strain modulus E/(1−ν²), Pa; infinite for a rigid striker.
-    pub contact_modulus: f32,
-    /// Pressure that crushes or permanently dents its surface, Pa ([`Material::crushing_pressure`]); infinite if none does.
-    pub crushing_pressure: f32,
-    /// Inverse effective mass nᵀ K n of the striker at the contact, 1/kg; zero for an immovable striker.
-    pub inverse_effective_mass: f32,
-    /// Radius of curvature at the contact, m; infinite for a flat striker.
-    pub curvature_radius: f32,
-    /// Coefficient of restitution of the pair, 0..=1.
-    pub restitution: f32,
-    /// Contact duration of the striker's own vibration, s; the longer of the durations of both bodies applies `[G12 §4.1]`. Used by the
-    /// modal duration models; 0 for a striker that is not breakable. See [`answer_duration`](super::answer_duration).
-    pub modal_duration: f32,
-    /// Mass coupling of a striker with several contacts; `None` for a single contact.
-    pub shared: Option<SharedMass>,
-    /// Receptance of a vibrating striker, for [integrated](crate::internals::DurationModel::Integrated) blows; `None` for a rigid striker
-    /// with a Hertz contact. Computed by [`Striker::flexible`].
-    pub receptance: Option<Arc<Receptance>>,
-}
-
-/// Mass coupling between the contacts of a striker that hits at several points: an impulse at one contact moves the striker at the others.
-///
-/// Let `a = (velocity, spin)` be the mass-weighted response of the striker to a unit impulse at a contact. A unit impulse at contact l
-/// reduces the approach speed at contact k of the same striker by `a_k · a_l`, 1/kg; for k = l this is
-/// [`Striker::inverse_effective_mass`]. Without the coupling each contact would strike with the whole mass, and the energy of the striker
-/// would be counted once per contact.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SharedMass {
-    /// Number of the striker: contacts of one impact with equal numbers belong to the same striker. Below [`SharedMass::MOST_BODIES`].
-    pub body: u32,
-    /// √M times the velocity change by a unit impulse along the contact normal, 1/√kg: `M^(−1/2) n`.
-    pub velocity: Vec3,
-    /// √I times the spin change by that impulse, 1/√kg: `I^(−1/2) (r × n)` with the arm r from the centre of mass.
-    pub spin: Vec3,
-}
-
-impl SharedMass {
-    /// Exclusive upper limit of [`SharedMass::body`].
-    pub const MOST_BODIES: u32 = 1 << 24;
-
-    /// Returns true if this inverse effective mass, 1/kg, is no smaller than its own, but for a per cent of rounding: a body that gave way less at
-    /// its own contacts than from one to another would bring energy without end.
-    fn fits(&self, inverse_effective_mass: f64) -> bool {
-        let [velocity, spin] = [self.velocity, self.spin].map(|v| v.as_dvec3().length_squared());
-        velocity + spin <= 1.01 * inverse_effective_mass
-    }
-
-    /// Coupling of striker number `body` that no impulse moves, because it is fixed or kinematic. Its contacts still belong together, because
-    /// it may vibrate.
-    #[must_use]
-    pub fn immovable(body: u32) -> Self {
-        Self {
-            body,
-            velocity: Vec3::ZERO,
-            spin: Vec3::ZERO,
-        }
-    }
-
-    /// Coupling of striker number `body`: `velocity` is `M^(−1/2) n`, `inverse_inertia` holds the columns of I⁻¹, 1/(kg·m²), and `turn` is
-    /// r × n, all in world axes. Axes with zero I⁻¹ get no spin.
-    #[must_use]
-    pub fn of(body: u32, velocity: Vec3, inverse_inertia: [Vec3; 3], turn: Vec3) -> Self {
-        // I⁻¹ = L Lᵀ: the square of Lᵀ turn is the part of the spin in the inverse effective mass.
-        let spins = lower_factor(inverse_inertia);
-        Self {
-            body,
-            velocity,
-            spin: Vec3::from_array(spins.map(|column| column.dot(turn))),
-        }
-    }
-}
-
-/// Columns of the lower triangular L with L Lᵀ = the symmetric matrix of these columns; zero where a pivot is not positive.
-fn lower_factor(columns: [Vec3; 3]) -> [Vec3; 3] {
-    let mut rest = columns;
-    std::array::from_fn(|k| {
-        let pivot = rest[k][k];
-        if pivot <= 0.0 {
-            return Vec3::ZERO;
-        }
-        let column = rest[k] / pivot.sqrt();
-        for (l, other) in rest.iter_mut().enumerate() {
-            *other -= column * column[l];
-        }
-        column
-    })
-}
-
-impl Striker {
-    /// Radius of curvature assumed for striking edges and corners, m.
-    pub const EDGE_RADIUS: f32 = 3e-3;
-
-    /// Speed of approach that a unit impulse at the contact of `other` takes away at this one, which is another contact, 1/kg.
-    pub(crate) fn inverse_mass_between(&self, other: &Self) -> f64 {
-        match (&self.shared, &other.shared) {
-            (Some(a), Some(b)) if a.body == b.body => {
-                let velocity = a.velocity.as_dvec3().dot(b.velocity.as_dvec3());
-                velocity + a.spin.as_dvec3().dot(b.spin.as_dvec3())
-            }
-            _ => 0.0,
-        }
-    }
-
-    /// An immovable flat striker of this material, such as a floor or a wall.
-    #[must_use]
-    pub fn fixed(material: &Material) -> Self {
-        Self {
-            contact_modulus: material.contact_modulus() as f32,
-            crushing_pressure: material.crushing_pressure as f32,
-            inverse_effective_mass: 0.0,
-            curvature_radius: f32::INFINITY,
-            restitution: material.restitution as f32,
-            modal_duration: 0.0,
-            shared: None,
-            receptance: None,
-        }
-    }
-
-    /// A ball of this mass, kg, and radius, m, in a central impact.
-    #[must_use]
-    pub fn ball(material: &Material, mass: f64, radius: f64) -> Self {
-        Self {
-            inverse_effective_mass: (1.0 / mass) as f32,
-            curvature_radius: radius as f32,
-            ..Self::fixed(material)
-        }
-    }
-
-    /// A rigid, flat and immovable striker.
-    #[must_use]
-    pub const fn rigid() -> Self {
-        Self {
-            contact_modulus: f32::INFINITY,
-            crushing_pressure: f32::INFINITY,
-            inverse_effective_mass: 0.0,
-            curvature_radius: f32::INFINITY,
-            restitution: 0.0,
-            modal_duration: 0.0,
-            shared: None,
-            receptance: None,
-        }
-    }
 }
 
 impl Contact {
@@ -222,6 +77,7 @@ impl Contact {
     }
 
     /// Returns true if the contact is scripted, with given impulse and duration.
+    #[doc(hidden)]
     #[must_use]
     pub fn is_script(&self) -> bool {
         self.duration > 0.0
@@ -304,6 +160,7 @@ impl Contact {
     ///
     /// # Errors
     /// The first field that is NaN, negative or not a unit vector.
+    #[doc(hidden)]
     pub fn validate(&self) -> Result<(), InputError> {
         finite("a contact's point", self.point)?;
         finite("a contact's normal", self.normal)?;

@@ -68,7 +68,8 @@ impl Factors {
     }
 }
 
-/// Locally varying factors on the values of the material, and the scatter of strength. `Default`: uniform, without scatter.
+/// Locally varying factors on the values of the material, and the scatter of strength. `Default`: uniform, without scatter;
+/// [`Fields::of_material`]: the scatter of a material.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Fields {
@@ -107,6 +108,7 @@ impl Fields {
     }
 
     /// Sets scatter and fatigue to the values of the preset with this material's name.
+    #[doc(hidden)]
     #[must_use]
     pub fn scattered_as(self, material: &Material) -> Self {
         match Preset::named(&material.name) {
@@ -120,14 +122,14 @@ impl Fields {
         }
     }
 
-    /// Makes fields by evaluating `factors` at the centre of each tetrahedron, m, body frame.
+    /// Makes fields by evaluating `factors` at the centre of each tetrahedron, m, body frame, with the scatter of the asset's material.
     #[must_use]
     pub fn from_function(asset: &Asset, factors: impl Fn(Vec3) -> Factors) -> Self {
         let mesh = &asset.fracture;
         let of_tet = (0..mesh.tets.len()).map(|e| factors(mesh.centroid(e)));
         Self {
             of_tet: of_tet.collect(),
-            ..Self::default()
+            ..Self::of_material(&asset.material)
         }
     }
 
@@ -163,6 +165,7 @@ impl Fields {
     }
 
     /// Sets the scatter of the strength, see [`Fields::weibull_modulus`].
+    #[doc(hidden)]
     #[must_use]
     pub fn with_weibull_modulus(self, weibull_modulus: f64) -> Self {
         Self {

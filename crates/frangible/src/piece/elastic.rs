@@ -58,6 +58,7 @@ impl Body {
     ///
     /// # Errors
     /// The portion belongs to another body, or the elastic model does not match the portion.
+    #[doc(hidden)]
     pub fn piece(&self, portion: &Arc<Portion>, elastic: Elastic) -> Result<Self, InputError> {
         let root = portion.root();
         let (tets, nodes) = (portion.tets(), portion.nodes());

@@ -114,6 +114,7 @@ impl Portion {
 impl Fracture {
     /// Returns the portion of each requested fragment, for [`Body::piece`]; `None` for other fragments, and for a fracture that was not
     /// computed by this crate. `body` is the body that broke.
+    #[doc(hidden)]
     #[must_use]
     pub fn portions(
         &self,

@@ -61,17 +61,20 @@ impl BodyState {
     }
 
     /// Number of cracks.
+    #[doc(hidden)]
     #[must_use]
     pub fn cracks(&self) -> usize {
         self.cracks.len()
     }
 
     /// The tetrahedra that the cracks have cut, crack by crack.
+    #[doc(hidden)]
     pub fn cuts(&self) -> impl Iterator<Item = &OldCut> {
         self.cracks.iter().flat_map(|crack| &crack.cuts)
     }
 
     /// The faces of the cracks in the fracture mesh of their body, for drawing: a polygon of three or four corners per tetrahedron cut, m.
+    #[doc(hidden)]
     pub fn faces<'a>(&'a self, mesh: &'a TetMesh) -> impl Iterator<Item = ([Vec3; 4], usize)> + 'a {
         let cuts = self.cuts();
         cuts.map(|cut| crossing_polygon(&mesh.corners(cut.tet as usize), &cut.values))
@@ -79,6 +82,7 @@ impl BodyState {
 
     /// The faces that the cracks have cut since the body was made: of a piece none that it was parted by, or had within it when it came
     /// about. Polygons as those of [`faces`](Self::faces).
+    #[doc(hidden)]
     pub fn new_faces<'a>(
         &'a self,
         mesh: &'a TetMesh,

@@ -8,22 +8,25 @@ fn arrays_that_do_not_fit_are_refused() {
     type Change = fn(&mut Asset);
     let cases: [(Change, &str); 50] = [
         (
-            |a| a.supported[1] = 8,
+            |a| a.parts_mut().supported[1] = 8,
             "supported node 1 lies beyond the 8 nodes",
         ),
         (
-            |a| a.supported[1] = 1,
+            |a| a.parts_mut().supported[1] = 1,
             "supported nodes are not in ascending order",
         ),
         (
-            |a| a.supported.reverse(),
+            |a| a.parts_mut().supported.reverse(),
             "supported nodes are not in ascending order",
         ),
-        (|a| a.material.density = f64::NAN, "density"),
-        (|a| a.mass.mass = 0.0, "its mass is 0"),
-        (|a| a.mass.volume = f64::INFINITY, "its volume is inf"),
-        (|a| a.mass.centre.y = f64::NAN, "centre of mass"),
-        (|a| a.mass.inertia.y_axis.y = -1.0, "inertia"),
+        (|a| a.parts_mut().material.density = f64::NAN, "density"),
+        (|a| a.parts_mut().mass.mass = 0.0, "its mass is 0"),
+        (
+            |a| a.parts_mut().mass.volume = f64::INFINITY,
+            "its volume is inf",
+        ),
+        (|a| a.parts_mut().mass.centre.y = f64::NAN, "centre of mass"),
+        (|a| a.parts_mut().mass.inertia.y_axis.y = -1.0, "inertia"),
         (|a| mesh(a).tets.clear(), "no tetrahedra"),
         (
             |a| mesh(a).tets[2][1] = 8,
@@ -52,83 +55,101 @@ fn arrays_that_do_not_fit_are_refused() {
             "tetrahedron 1 refers to neighbour 6, but there are only 6",
         ),
         (
-            |a| a.surface.triangles[1] = [0, 1, 99],
+            |a| a.parts_mut().surface.triangles[1] = [0, 1, 99],
             "surface triangle 1 is not an outer face",
         ),
         (
-            |a| a.surface.tets[1] = 6,
+            |a| a.parts_mut().surface.tets[1] = 6,
             "surface triangle 1 refers to tetrahedron 6",
         ),
         (
-            |a| a.surface.triangles.truncate(11),
+            |a| a.parts_mut().surface.triangles.truncate(11),
             "surface triangle per outer face",
         ),
         (
-            |a| a.surface.triangles[1] = [0, 0, 0],
+            |a| a.parts_mut().surface.triangles[1] = [0, 0, 0],
             "surface triangle 1 is not an outer face",
         ),
         (
-            |a| a.surface.normals.clear(),
+            |a| a.parts_mut().surface.normals.clear(),
             "normal row per surface triangle",
         ),
         (
-            |a| a.surface.curvature_radius[2] = 0.0,
+            |a| a.parts_mut().surface.curvature_radius[2] = 0.0,
             "curvature radius of surface triangle 2",
         ),
         (
-            |a| a.surface.walls.margin.clear(),
+            |a| a.parts_mut().surface.walls.margin.clear(),
             "one wall margin per surface triangle: 12, not 0; give every list",
         ),
         (
-            |a| a.surface.walls.thickness[2] = 0.0,
+            |a| a.parts_mut().surface.walls.thickness[2] = 0.0,
             "wall thickness of surface triangle 2 is 0",
         ),
         (
-            |a| a.surface.walls.thickness[3] = f32::NAN,
+            |a| a.parts_mut().surface.walls.thickness[3] = f32::NAN,
             "wall thickness of surface triangle 3 is NaN, not above zero; give metres",
         ),
         (
-            |a| a.surface.walls.stiffening[4] = -1.0,
+            |a| a.parts_mut().surface.walls.stiffening[4] = -1.0,
             "wall stiffening of surface triangle 4 is -1",
         ),
         (
-            |a| a.surface.walls.margin[5] = f32::NAN,
+            |a| a.parts_mut().surface.walls.margin[5] = f32::NAN,
             "wall margin of surface triangle 5 is NaN",
         ),
         (
-            |a| a.surface.walls.margin[6] = -0.5,
+            |a| a.parts_mut().surface.walls.margin[6] = -0.5,
             "wall margin of surface triangle 6 is -0.5",
         ),
         (
-            |a| a.modes.residual_modes = 3,
+            |a| a.parts_mut().modes.residual_modes = 3,
             "3 of its 3 modes respond statically",
         ),
         (
-            |a| a.analysis.elements[1][9] = 10,
+            |a| a.parts_mut().analysis.elements[1][9] = 10,
             "analysis element 1 refers to a node beyond",
         ),
         (
-            |a| a.analysis.barycentric_gradients.truncate(1),
+            |a| a.parts_mut().analysis.barycentric_gradients.truncate(1),
             "gradient row",
         ),
         (
-            |a| a.embedding.tets[5].element = 2,
+            |a| a.parts_mut().embedding.tets[5].element = 2,
             "embedded centroid 5 refers",
         ),
         (
-            |a| a.embedding.nodes[7].offset.x = f32::NAN,
+            |a| a.parts_mut().embedding.nodes[7].offset.x = f32::NAN,
             "embedded node 7 is not finite",
         ),
-        (|a| a.embedding.nodes.truncate(3), "embedded point per node"),
-        (|a| a.modes.eigenvalues[0] = 0.0, "eigenvalue of mode 0"),
-        (|a| a.modes.eigenvalues.reverse(), "rising frequency"),
-        (|a| a.modes.shapes[4] = f32::NAN, "row 1 of the mode shapes"),
-        (|a| a.modes.peak_stress.clear(), "peak stress per mode"),
         (
-            |a| a.cells[0].points[1].x = f32::INFINITY,
+            |a| a.parts_mut().embedding.nodes.truncate(3),
+            "embedded point per node",
+        ),
+        (
+            |a| a.parts_mut().modes.eigenvalues[0] = 0.0,
+            "eigenvalue of mode 0",
+        ),
+        (
+            |a| a.parts_mut().modes.eigenvalues.reverse(),
+            "rising frequency",
+        ),
+        (
+            |a| a.parts_mut().modes.shapes[4] = f32::NAN,
+            "row 1 of the mode shapes",
+        ),
+        (
+            |a| a.parts_mut().modes.peak_stress.clear(),
+            "peak stress per mode",
+        ),
+        (
+            |a| a.parts_mut().cells[0].points[1].x = f32::INFINITY,
             "point of convex cell 0",
         ),
-        (|a| a.cell_of_tet[1] = 1, "cell number of tetrahedron 1"),
+        (
+            |a| a.parts_mut().cell_of_tet[1] = 1,
+            "cell number of tetrahedron 1",
+        ),
         (
             |a| drawn(a).triangles[1][0] = 4,
             "render triangle 1 refers to a vertex",
@@ -166,10 +187,10 @@ fn arrays_that_do_not_fit_are_refused() {
         ),
     ];
     fn drawn(asset: &mut Asset) -> &mut RenderSurface {
-        asset.render.as_mut().unwrap()
+        asset.parts_mut().render.as_mut().unwrap()
     }
     fn mesh(asset: &mut Asset) -> &mut frangible::internals::TetMesh {
-        std::sync::Arc::make_mut(&mut asset.fracture)
+        std::sync::Arc::make_mut(asset.parts_mut().fracture)
     }
     fn outside(asset: &mut Asset, tet: usize) -> &mut u32 {
         let mut row = mesh(asset).neighbours[tet].iter_mut();

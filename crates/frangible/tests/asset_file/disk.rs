@@ -37,12 +37,12 @@ fn what_was_saved_is_loaded() {
     asset.save(&path).unwrap();
     assert!(same(&asset, &Asset::load(&path).unwrap()));
     // Over an older file, too.
-    let renamed = Asset {
+    let renamed = Asset::from_parts(AssetParts {
         name: "another".into(),
-        ..asset
-    };
+        ..asset.into_parts()
+    });
     renamed.save(&path).unwrap();
-    assert_eq!(Asset::load(&path).unwrap().name, "another");
+    assert_eq!(Asset::load(&path).unwrap().name(), "another");
     assert_eq!(folder.names(), ["vase.frangible"]);
 }
 
@@ -68,7 +68,7 @@ fn a_failed_save_names_the_path_and_leaves_what_was_there() {
     let good = folder.0.join("good.frangible");
     asset.save(&good).unwrap();
     let mut unsound = asset.clone();
-    unsound.mass.mass = f64::NAN;
+    unsound.parts_mut().mass.mass = f64::NAN;
     let error = unsound.save(&good).unwrap_err().to_string();
     assert!(
         error.contains("good.frangible") && error.contains("mass"),

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use frangible::glam::Vec3;
 use frangible::internals::AssetFileError;
 use frangible::internals::asset::{
-    Embedding, FORMAT_VERSION, RenderSurface, SaveOptions, SurfaceWalls, seal,
+    AssetParts, Embedding, FORMAT_VERSION, RenderSurface, SaveOptions, SurfaceWalls, seal,
 };
 use frangible::{Asset, InputError};
 
@@ -26,22 +26,22 @@ fn tiny() -> Asset {
         elements: 2,
         modes: 3,
     });
-    let mut asset = Asset {
+    let mut asset = Asset::from_parts(AssetParts {
         supported: vec![1, 4, 7],
         render: Some(drawn_surface()),
-        ..asset
-    };
+        ..asset.into_parts()
+    });
     let walls = |number: f32| {
         (0..12)
             .map(|t| if t < 8 { number } else { f32::INFINITY })
             .collect()
     };
-    asset.surface.walls = SurfaceWalls {
+    asset.parts_mut().surface.walls = SurfaceWalls {
         thickness: walls(0.004),
         stiffening: walls(0.0),
         margin: walls(0.02),
     };
-    asset.modes.residual_modes = 1;
+    asset.parts_mut().modes.residual_modes = 1;
     asset
 }
 
@@ -95,18 +95,18 @@ fn data_of(bytes: &[u8], id: u32) -> usize {
 #[test]
 fn an_asset_comes_back_bit_for_bit() {
     let whole = tiny();
-    let free = Asset {
+    let free = Asset::from_parts(AssetParts {
         supported: Vec::new(),
-        ..whole.clone()
-    };
-    let plain = Asset {
+        ..whole.clone().into_parts()
+    });
+    let plain = Asset::from_parts(AssetParts {
         render: None,
-        ..free.clone()
-    };
-    let bare = Asset {
+        ..free.clone().into_parts()
+    });
+    let bare = Asset::from_parts(AssetParts {
         render: Some(RenderSurface::default()),
-        ..whole.clone()
-    };
+        ..whole.clone().into_parts()
+    });
     for asset in [whole, free, plain, bare] {
         let bytes = asset.to_bytes();
         let back = Asset::from_bytes(&bytes).unwrap();
@@ -119,10 +119,10 @@ fn an_asset_comes_back_bit_for_bit() {
 fn a_rebuilt_adjacency_is_the_stored_one() {
     let asset = Asset::from_bytes(&tiny().to_bytes()).unwrap();
     let rebuilt = frangible::internals::TetMesh::new(
-        asset.fracture.positions.clone(),
-        asset.fracture.tets.clone(),
+        asset.fracture().positions.clone(),
+        asset.fracture().tets.clone(),
     );
-    assert_eq!(rebuilt.neighbours, asset.fracture.neighbours);
+    assert_eq!(rebuilt.neighbours, asset.fracture().neighbours);
 }
 
 #[test]
@@ -138,27 +138,27 @@ fn the_layout_is_the_documented_one() {
             data_of(&bytes, id) + 4 * (row * columns + column),
         ))
     };
-    assert_eq!(number(16, 2, 1, 3), asset.fracture.positions[2].y);
+    assert_eq!(number(16, 2, 1, 3), asset.fracture().positions[2].y);
     assert_eq!(
         number(50, 1, 10, 12),
-        asset.analysis.barycentric_gradients[1][3].y
+        asset.analysis().barycentric_gradients[1][3].y
     );
     assert_eq!(
         u32_at(&bytes, data_of(&bytes, 17) + 4 * 7),
-        asset.fracture.tets[1][3]
+        asset.fracture().tets[1][3]
     );
     let density = f64::from_bits(u64_at(&bytes, data_of(&bytes, 3) + 8 * 2) as u64);
-    assert_eq!(density, asset.material.density);
+    assert_eq!(density, asset.material().density);
 }
 
 #[test]
 fn what_a_body_lacks_its_file_lacks() {
     let whole = tiny();
-    let mut bare = Asset {
+    let mut bare = Asset::from_parts(AssetParts {
         supported: Vec::new(),
-        ..whole.clone()
-    };
-    bare.surface.walls = SurfaceWalls::default();
+        ..whole.clone().into_parts()
+    });
+    bare.parts_mut().surface.walls = SurfaceWalls::default();
     let bytes = bare.to_bytes();
     for id in [36, 37, 38, 99] {
         let has = |bytes: &[u8]| ids(bytes).contains(&id);
@@ -182,14 +182,14 @@ fn what_a_body_lacks_its_file_lacks() {
 
 #[test]
 fn a_compact_asset_comes_back_rounded_to_half_precision_and_otherwise_bit_for_bit() {
-    let free = Asset {
+    let free = Asset::from_parts(AssetParts {
         supported: Vec::new(),
-        ..tiny()
-    };
+        ..tiny().into_parts()
+    });
     let mut still = tiny();
-    still.modes.shapes.fill(0.0);
+    still.parts_mut().modes.shapes.fill(0.0);
     let mut wide = tiny();
-    for (i, x) in wide.modes.shapes.iter_mut().enumerate() {
+    for (i, x) in wide.parts_mut().modes.shapes.iter_mut().enumerate() {
         *x *= [1e30, 1.0, 1e-30][i % 3];
     }
     for asset in [tiny(), free, still, wide] {
@@ -202,7 +202,13 @@ fn a_compact_asset_comes_back_rounded_to_half_precision_and_otherwise_bit_for_bi
         assert!(same(&back, &back.clone().with_compact_shapes()));
         // Half of a unit in the last of eleven bits, or of the smallest step: 2⁻³⁹ of the largest number, at most.
         for mode in 0..3 {
-            let column = |a: &Asset| a.modes.shapes[mode..].iter().step_by(3).copied().collect();
+            let column = |a: &Asset| {
+                a.modes().shapes[mode..]
+                    .iter()
+                    .step_by(3)
+                    .copied()
+                    .collect()
+            };
             let (exact, rounded): (Vec<f32>, Vec<f32>) = (column(&asset), column(&back));
             let largest = exact.iter().fold(0.0_f32, |m, x| m.max(x.abs()));
             for (x, y) in exact.iter().zip(&rounded) {
@@ -216,12 +222,12 @@ fn a_compact_asset_comes_back_rounded_to_half_precision_and_otherwise_bit_for_bi
 #[test]
 fn offsets_that_are_all_zero_are_left_out() {
     let mut unmoved = tiny();
-    let Embedding { tets, nodes } = &mut unmoved.embedding;
-    for point in tets.iter_mut().chain(nodes) {
+    let Embedding { tets, nodes } = unmoved.parts_mut().embedding;
+    for point in tets.iter_mut().chain(nodes.iter_mut()) {
         point.offset = Vec3::ZERO;
     }
     let mut nearly = unmoved.clone();
-    nearly.embedding.nodes[1].offset.y = -0.0;
+    nearly.parts_mut().embedding.nodes[1].offset.y = -0.0;
     for options in [SaveOptions::default(), SaveOptions::compact()] {
         let written = |asset: &Asset| asset.to_bytes_with(&options);
         let (bytes, with_offsets) = (written(&unmoved), written(&nearly));
@@ -240,10 +246,10 @@ fn offsets_that_are_all_zero_are_left_out() {
 
 #[test]
 fn sections_of_unknown_number_are_skipped() {
-    let asset = Asset {
+    let asset = Asset::from_parts(AssetParts {
         render: None,
-        ..tiny()
-    };
+        ..tiny().into_parts()
+    });
     let bytes = asset.to_bytes();
     // Renaming the render sections of a file is adding sections nobody knows, of any kind.
     let mut newer = tiny().to_bytes();

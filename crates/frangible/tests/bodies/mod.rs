@@ -12,7 +12,7 @@ use frangible::{
 fn load(name: &str) -> Breakable {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bodies");
     let asset = Asset::load(path.join(name)).expect("a body that this build can read");
-    Breakable::new(asset).expect("a sound body")
+    Breakable::uniform(asset).expect("a sound body")
 }
 
 /// Pane of glass 0.2 × 0.2 m, 4 mm thick, its normal z: a wall everywhere.
@@ -46,10 +46,7 @@ pub(crate) fn models() -> [(&'static str, FractureConfig); 3] {
 pub(crate) fn steel_ball(mass: f64) -> Striker {
     let steel = Material::preset("steel").unwrap();
     let radius = (mass / steel.density * 0.75 / std::f64::consts::PI).cbrt();
-    Striker {
-        restitution: 0.5,
-        ..Striker::ball(&steel, mass, radius)
-    }
+    Striker::ball(&steel, mass, radius).with_restitution(0.5)
 }
 
 /// A steel ball of 130 g hits the pane at (x, y) from above.
@@ -61,17 +58,14 @@ pub(crate) fn pane_hit(x: f32, y: f32, speed: f64) -> Contact {
 /// The block lands on its corner on stone, its centre above it.
 pub(crate) fn block_hit(speed: f64) -> Contact {
     let corner = Vec3::new(0.105, 0.05, -0.025);
-    let stone = Striker {
-        restitution: 0.5,
-        ..Striker::fixed(&Material::preset("stone").unwrap())
-    };
+    let stone = Striker::fixed(&Material::preset("stone").unwrap()).with_restitution(0.5);
     Contact::collision(block().asset(), corner, -corner, speed, stone)
 }
 
 /// A steel ball of 130 g falls on the shelf, not far from its free end.
 pub(crate) fn shelf_hit(speed: f64) -> Contact {
     let high = |axis: usize| {
-        let positions = shelf().asset().fracture.positions.iter();
+        let positions = shelf().asset().fracture().positions.iter();
         positions.map(|p| p[axis]).fold(f32::MIN, f32::max)
     };
     let point = Vec3::new(high(0) - 0.03, 0.0, high(2));
@@ -180,13 +174,13 @@ pub(crate) fn bits(outcome: &Outcome) -> Vec<u64> {
 impl Numbers {
     /// A blow on a random place of the surface, from outside, up to 20 m/s, most of them soft.
     pub(crate) fn blow(&mut self, asset: &Asset) -> Contact {
-        let triangle = (self.next() * asset.surface.triangles.len() as f64) as usize;
-        let corner = asset.surface.triangles[triangle][0] as usize;
-        let inward = -asset.surface.normals[triangle][0];
+        let triangle = (self.next() * asset.surface().triangles.len() as f64) as usize;
+        let corner = asset.surface().triangles[triangle][0] as usize;
+        let inward = -asset.surface().normals[triangle][0];
         let tilt = Vec3::from_array(std::array::from_fn(|_| self.next() as f32 - 0.5));
         let speed = 20.0 * self.next().powi(6);
         let striker = steel_ball(0.02 + 0.2 * self.next());
-        let point = asset.fracture.positions[corner];
+        let point = asset.fracture().positions[corner];
         Contact::collision(asset, point, inward + tilt, speed, striker)
     }
 }

@@ -2,8 +2,8 @@
 
 use frangible::glam::Vec3;
 use frangible::internals::asset::{
-    AnalysisMesh, Blending, ConvexCell, EmbeddedPoint, Embedding, Image, ImageKind, OuterSurface,
-    Placement, RenderMaterial, RenderSurface, Texture, TextureSlot, Wrap,
+    AnalysisMesh, AssetParts, Blending, ConvexCell, EmbeddedPoint, Embedding, Image, ImageKind,
+    OuterSurface, Placement, RenderMaterial, RenderSurface, Texture, TextureSlot, Wrap,
 };
 use frangible::internals::modal::ModalBasis;
 use frangible::internals::stress::StressBounds;
@@ -128,7 +128,7 @@ pub(crate) fn synthetic_asset(size: &Size) -> Asset {
         stress: (0..2 * size.modes).map(|_| 1.0 + numbers.f32()).collect(),
         gradient: (0..2 * size.modes).map(|_| 1.0 + numbers.f32()).collect(),
     };
-    Asset {
+    Asset::from_parts(AssetParts {
         name: "Vase – größer".into(),
         material,
         fracture: fracture.into(),
@@ -143,7 +143,7 @@ pub(crate) fn synthetic_asset(size: &Size) -> Asset {
         supported: Vec::new(),
         render: None,
         portion: None,
-    }
+    })
 }
 
 /// Two triangles, two materials.

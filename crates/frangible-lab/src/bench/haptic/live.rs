@@ -39,7 +39,7 @@ impl SurfacePlace {
             position: Vec3::ZERO,
             normal: Vec3::Z,
             triangle: 0,
-            shapes: vec![Vec3::ZERO; body.asset().modes.count()],
+            shapes: vec![Vec3::ZERO; body.asset().modes().count()],
         };
         place.seek(body, point)?;
         Ok(place)
@@ -53,15 +53,15 @@ impl SurfacePlace {
         finite("a point to be touched", point)?;
         let asset = &**body.asset();
         let at = body.nearest_on_surface(point);
-        let normals = &asset.surface.normals[at.triangle as usize];
+        let normals = &asset.surface().normals[at.triangle as usize];
         let mixed: Vec3 = normals.iter().zip(at.weights).map(|(n, w)| *n * w).sum();
         self.position = at.position;
         self.normal = mixed.normalize_or(normals[0]);
         self.triangle = at.triangle;
         self.shapes.clear();
-        self.shapes.resize(asset.modes.count(), Vec3::ZERO);
+        self.shapes.resize(asset.modes().count(), Vec3::ZERO);
         each_row(asset, &at, |node, weight| {
-            asset.modes.add_shape(node, weight, &mut self.shapes);
+            asset.modes().add_shape(node, weight, &mut self.shapes);
         });
         Ok(())
     }
@@ -118,7 +118,7 @@ impl LiveModes {
     /// A tick that is not above zero, or not finite.
     pub fn new(body: &Body, tick: f64) -> Result<Self, InputError> {
         positive("the length of a tick", tick, "s")?;
-        let (basis, material) = (&body.asset().modes, &body.asset().material);
+        let (basis, material) = (body.asset().modes(), body.asset().material());
         let modes = (0..basis.count()).map(|i| {
             let frequency = basis.eigenvalues[i].sqrt();
             LiveMode::new(frequency, basis.damping(i, material), tick)

@@ -119,7 +119,7 @@ pub fn measure(
 ) -> Result<Findings, BenchError> {
     let name = format!("{MATERIAL}-{}", subject.file());
     let baked = cache.body(&name, MODES, MATERIAL, || subject.geometry(), progress)?;
-    let kind = Breakable::new(baked.asset)?;
+    let kind = Breakable::uniform(baked.asset)?;
     let runs = options.runs.max(1);
     let of_all = (runs + usize::from(options.paced)) as f64;
     let mut best: Option<Log> = None;
@@ -143,9 +143,9 @@ pub fn measure(
     };
     let asset = kind.asset();
     Ok(Findings {
-        tets: asset.fracture.tets.len(),
-        nodes: asset.fracture.positions.len(),
-        modes: asset.modes.count(),
+        tets: asset.fracture().tets.len(),
+        nodes: asset.fracture().positions.len(),
+        modes: asset.modes().count(),
         material: MATERIAL,
         taps: taps(&best, paced.as_ref()),
         kept: paced.map(|log| log.kept),
@@ -171,7 +171,7 @@ fn play(kind: &Breakable, ticks: u64, paced: bool) -> Result<Log, BenchError> {
     };
     let mut config = FractureConfig::with_given_impulses();
     config.samples_per_period = SAMPLES;
-    let positions = kind.asset().fracture.positions.iter();
+    let positions = kind.asset().fracture().positions.iter();
     let top = positions.map(|p| p.z).fold(f32::NEG_INFINITY, f32::max);
     let mut hand = Hand::new(HEAD as f32, radius, top, 1);
     let mut plate = 1;

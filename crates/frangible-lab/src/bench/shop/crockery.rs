@@ -33,11 +33,11 @@ pub(crate) fn bake_all() -> Result<Vec<Kind>, BenchError> {
             analysis: Some(shape.size_for(TETS[1])?),
             ..BakeSpec::new(name, shape, Material::preset(material)?)
         };
-        let asset = bake(&spec, &mut |_| {})?.0;
-        let lowest = asset.fracture.positions.iter().map(|p| p.z);
+        let asset = bake(&spec)?;
+        let lowest = asset.fracture().positions.iter().map(|p| p.z);
         let foot = -lowest.fold(f32::INFINITY, f32::min);
         Ok(Kind {
-            breakable: Breakable::new(Arc::new(asset))?,
+            breakable: Breakable::uniform(Arc::new(asset))?,
             foot,
         })
     };

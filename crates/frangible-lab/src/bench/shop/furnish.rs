@@ -1,6 +1,6 @@
 //! The shop: a thousand things on planks, and the bull.
 
-use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
+use frangible_rapier::rapier3d::dynamics::{RigidBodyBuilder, RigidBodyHandle};
 use frangible_rapier::rapier3d::geometry::{
     Group, InteractionGroups, InteractionTestMode, SharedShape,
 };
@@ -60,11 +60,9 @@ pub(crate) fn furnish(kinds: &[Kind], config: WorldConfig, seed: u64) -> Result<
                         );
                     let upright = Rotation::from_rotation_x(-std::f32::consts::FRAC_PI_2);
                     let body = kind.breakable.body(seed + things.len() as u64);
-                    things.push(world.insert_breakable(
+                    things.push(world.insert(
                         body,
-                        Pose::from_parts(at, upright),
-                        Vector::ZERO,
-                        Vector::ZERO,
+                        RigidBodyBuilder::dynamic().pose(Pose::from_parts(at, upright)),
                     )?);
                 }
             }

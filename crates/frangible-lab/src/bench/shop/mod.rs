@@ -125,12 +125,12 @@ pub fn measure(
     }
     let assets = kinds.iter().map(|kind| kind.breakable.asset());
     Ok(Findings {
-        modes: assets.clone().map(|a| a.modes.count()).max().unwrap_or(0),
+        modes: assets.clone().map(|a| a.modes().count()).max().unwrap_or(0),
         kinds: assets
             .map(|asset| KindOfThing {
-                name: asset.name.clone(),
-                tets: asset.fracture.tets.len(),
-                mass: asset.mass.mass,
+                name: asset.name().to_owned(),
+                tets: asset.fracture().tets.len(),
+                mass: asset.mass().mass,
                 file_size: asset.to_bytes().len(),
             })
             .collect(),

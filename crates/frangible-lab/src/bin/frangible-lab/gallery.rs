@@ -10,7 +10,7 @@ use frangible_photo::{
     FilmFormat, FilmWriter, Picture, SheetOptions, SlowMotion, Studio, contact_sheet,
 };
 use frangible_recording::{make_folder, write_atomically};
-use frangible_scenes::{Run, SCENE_NAMES, bake, play, scene};
+use frangible_scenes::{Run, SCENE_NAMES, bake_with, play, scene};
 use image::RgbImage;
 use image::codecs::jpeg::JpegEncoder;
 use image::imageops::{FilterType, resize};
@@ -72,7 +72,7 @@ pub(crate) fn run(args: &GalleryArgs) -> Result<(), Box<dyn Error>> {
 fn played(name: &str) -> Result<Run, Box<dyn Error>> {
     let bar = Bar::new(false);
     let scene = scene(name)?;
-    let baked = bake(&scene, &mut |p| bar.show(name, 0.5 * p.fraction))?;
+    let baked = bake_with(&scene, |p| bar.show(name, 0.5 * p.fraction))?;
     Ok(play(&scene, &baked, &mut |share| {
         bar.show(name, 0.5 + 0.5 * share);
     })?)

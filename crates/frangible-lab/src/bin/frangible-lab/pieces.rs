@@ -85,7 +85,7 @@ fn broken(threads: usize, hear: &(dyn Fn(f64) + Sync)) -> Result<Vec<Broken>, Bo
 fn of_scene(name: &str) -> Result<Vec<Broken>, Box<dyn Error>> {
     let mut scene = frangible_scenes::scene(name)?;
     scene.duration = DURATION;
-    let baked = frangible_scenes::bake(&scene, &mut |_| {})?;
+    let baked = frangible_scenes::bake(&scene)?;
     let run = frangible_scenes::play(&scene, &baked, &mut |_| {})?;
     let mut all = Vec::new();
     for (i, (spec, baked)) in scene.bodies.iter().zip(&baked).enumerate() {

@@ -49,13 +49,18 @@ pub(crate) fn add_held(
     colours: PieceColours,
 ) {
     let place = |p: Vec3| rotation * p;
-    for (triangle, normals) in asset.surface.triangles.iter().zip(&asset.surface.normals) {
-        let corners = triangle.map(|v| place(asset.fracture.positions[v as usize]));
+    for (triangle, normals) in asset
+        .surface()
+        .triangles
+        .iter()
+        .zip(&asset.surface().normals)
+    {
+        let corners = triangle.map(|v| place(asset.fracture().positions[v as usize]));
         model.smooth(colours.outside, corners, normals.map(place));
     }
     for (corners, count) in state
         .iter()
-        .flat_map(|state| state.new_faces(&asset.fracture))
+        .flat_map(|state| state.new_faces(asset.fracture()))
     {
         for k in 2..count {
             let sheet = [corners[0], corners[k - 1], corners[k]];

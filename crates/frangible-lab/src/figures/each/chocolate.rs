@@ -104,7 +104,7 @@ fn compute(workshop: &mut Workshop<'_>) -> Result<Findings, FigureError> {
             "A solid rabbit of {} tetrahedra, 150 mm high, thrown on a rigid wall with its side; the slowest throw, in steps of {:.0} %, after which the \
              largest piece is less than {:.0} % of it; pieces pulled apart, seed 1. Above, the paper's numbers: R_c is half of E, which takes \
              {:.0} m/s. Below, those of chocolate (R_c 1.5 MPa) in our model: {:.1} m/s.",
-            thrown[0].rabbit.fracture.tets.len(),
+            thrown[0].rabbit.fracture().tets.len(),
             100.0 * (FACTOR - 1.0),
             100.0 * LARGEST,
             thrown[0].speed,
@@ -121,7 +121,7 @@ fn throw(
     rabbit: Arc<Asset>,
     config: &FractureConfig,
 ) -> Result<Thrown, FigureError> {
-    let kind = Breakable::new(Arc::clone(&rabbit))?;
+    let kind = Breakable::uniform(Arc::clone(&rabbit))?;
     let stone = Striker::fixed(&Material::preset("stone")?);
     let mut speed = SLOWEST;
     while speed < FASTEST {
@@ -147,14 +147,14 @@ fn throw(
 
 /// Its side, +x, meets the wall.
 fn contact(rabbit: &Asset, speed: f64, wall: Striker) -> Contact {
-    let all = rabbit.fracture.positions.iter().copied();
+    let all = rabbit.fracture().positions.iter().copied();
     let point = all.max_by(|a, b| a.x.total_cmp(&b.x)).unwrap_or(Vec3::ZERO);
     Contact::collision(rabbit, point, Vec3::NEG_X, speed, wall)
 }
 
 /// Cut elements without a face on the outside, and all of them.
 fn inside(thrown: &Thrown) -> (usize, usize) {
-    let neighbours = &thrown.rabbit.fracture.neighbours;
+    let neighbours = &thrown.rabbit.fracture().neighbours;
     let cut = || thrown.trace.cracks.iter().flatten();
     let deep = cut().filter(|e| !neighbours[e.tet as usize].contains(&NO_NEIGHBOUR));
     (deep.count(), cut().count())

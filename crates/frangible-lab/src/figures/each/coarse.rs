@@ -86,7 +86,7 @@ fn search(
     wanted: impl Fn(&Fracture, &CrackTrace) -> bool,
 ) -> Result<Broken, FigureError> {
     let steel = Material::preset("steel")?;
-    let kind = frangible::Breakable::new(Arc::clone(asset))?;
+    let kind = frangible::Breakable::uniform(Arc::clone(asset))?;
     let [slowest, fastest, factor] = SPEEDS;
     let mut speed = slowest;
     while speed < fastest {

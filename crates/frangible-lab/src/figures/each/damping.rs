@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use frangible::glam::{Quat, Vec3};
-use frangible::{Asset, Body, Contact, FractureConfig, Outcome, impact};
+use frangible::{Asset, Breakable, Contact, FractureConfig, Outcome, impact};
 use image::RgbImage;
 
 use crate::figures::FigureError;
@@ -74,7 +74,7 @@ fn compute(workshop: &mut Workshop<'_>) -> Result<Findings, FigureError> {
             "The slab and the blow of Fig. 7 at G_c 90 J/m². {}. Pieces are pulled apart, seed 1; means over {SEEDS} seeds. α damps mode i at the rate α ω_i²: \
              of the slab's 100 modes the highest has {:.0} Hz. How much of a mode is left after the pulse depends on α ω_i² times the pulse.",
             slab_inputs(&slab),
-            slab.modes.frequency(slab.modes.count() - 1)
+            slab.modes().frequency(slab.modes().count() - 1)
         ),
         claims,
         tables: vec![table],
@@ -91,9 +91,9 @@ fn shown(alpha: f64) -> String {
 
 /// Number of the highest mode that still swings, of all.
 fn undamped(plate: &Asset) -> String {
-    let modes = &plate.modes;
+    let modes = plate.modes();
     let swings =
-        |i: &usize| modes.damping(*i, &plate.material) < 2.0 * modes.eigenvalues[*i].sqrt();
+        |i: &usize| modes.damping(*i, plate.material()) < 2.0 * modes.eigenvalues[*i].sqrt();
     let count = (0..modes.count()).filter(swings).count();
     format!("{count} of {}", modes.count())
 }
@@ -119,7 +119,7 @@ fn broken(
     config: &FractureConfig,
     label: &str,
 ) -> Result<RgbImage, FigureError> {
-    let body = Body::new(Arc::clone(plate), 1)?;
+    let body = Breakable::uniform(Arc::clone(plate))?.body(1);
     let outcome = impact(&body, std::slice::from_ref(contact), config)?;
     let mut model = Model::default();
     let colours = PieceColours {

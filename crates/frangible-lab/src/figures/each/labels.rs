@@ -28,7 +28,7 @@ fn compute(workshop: &mut Workshop<'_>) -> Result<Findings, FigureError> {
     let broken = plate()?;
     workshop.tell("drawing", 0.7);
     let image = beside(&[marks(&broken)?, regions(&broken)?]);
-    let mesh = &broken.asset.fracture;
+    let mesh = broken.asset.fracture();
     let (trace, fracture) = (&broken.trace, &broken.fracture);
     let own = components(&broken);
     let same = same_partition(&own, &trace.fragment_of_node);
@@ -77,7 +77,7 @@ fn compute(workshop: &mut Workshop<'_>) -> Result<Findings, FigureError> {
 
 /// The smallest node of each node's set: nodes connected over mesh edges that no crack cuts.
 fn components(broken: &Broken) -> Vec<u32> {
-    let mesh = &broken.asset.fracture;
+    let mesh = broken.asset.fracture();
     let mut cut = BTreeSet::new();
     for element in broken.trace.cracks.iter().flatten() {
         let nodes = mesh.tets[element.tet as usize];
@@ -127,7 +127,7 @@ const LOOK: Look = Look {
 };
 
 fn marks(broken: &Broken) -> Result<RgbImage, FigureError> {
-    let mut crack_of_tet = vec![usize::MAX; broken.asset.fracture.tets.len()];
+    let mut crack_of_tet = vec![usize::MAX; broken.asset.fracture().tets.len()];
     for (crack, elements) in broken.trace.cracks.iter().enumerate() {
         for element in elements {
             crack_of_tet[element.tet as usize] = crack;
@@ -146,7 +146,7 @@ fn marks(broken: &Broken) -> Result<RgbImage, FigureError> {
 }
 
 fn regions(broken: &Broken) -> Result<RgbImage, FigureError> {
-    let mesh = &broken.asset.fracture;
+    let mesh = broken.asset.fracture();
     let labels = &broken.trace.fragment_of_node;
     let mut model = Model::default();
     paint(&mut model, broken, |tet| {
@@ -158,7 +158,7 @@ fn regions(broken: &Broken) -> Result<RgbImage, FigureError> {
         }
     });
     let edge = mesh.mean_edge();
-    for triangle in &broken.asset.surface.triangles {
+    for triangle in &broken.asset.surface().triangles {
         for &v in triangle {
             let colour = LABELS[labels[v as usize] as usize % LABELS.len()];
             model.dot(colour, mesh.positions[v as usize], 0.16 * edge);
@@ -178,7 +178,7 @@ fn lines(model: &mut Model, broken: &Broken, mesh: &TetMesh) {
 
 /// The outside, each triangle in the colour of its tetrahedron, with its edges.
 fn paint(model: &mut Model, broken: &Broken, colour: impl Fn(u32) -> Colour) {
-    let (mesh, surface) = (&broken.asset.fracture, &broken.asset.surface);
+    let (mesh, surface) = (broken.asset.fracture(), broken.asset.surface());
     for (triangle, &tet) in surface.triangles.iter().zip(&surface.tets) {
         model.flat(colour(tet), triangle.map(|v| mesh.positions[v as usize]));
     }

@@ -27,7 +27,7 @@ const SURFACE: Colour = [0.10, 0.30, 0.62, 1.0];
 fn compute(workshop: &mut Workshop<'_>) -> Result<Findings, FigureError> {
     workshop.tell("looking for a blow", 0.1);
     let broken = bar()?;
-    let mesh = &broken.asset.fracture;
+    let mesh = broken.asset.fracture();
     let crack = broken
         .trace
         .cracks
@@ -154,11 +154,11 @@ pub(super) const LOOK: Look = Look {
 
 fn frame(broken: &Broken) -> Model {
     let mut model = Model::default();
-    let mesh = &broken.asset.fracture;
+    let mesh = broken.asset.fracture();
     add_edges(
         &mut model,
         mesh,
-        &broken.asset.surface.triangles,
+        &broken.asset.surface().triangles,
         INK,
         1.8e-4,
     );
@@ -167,7 +167,7 @@ fn frame(broken: &Broken) -> Model {
 
 fn elements(broken: &Broken, cut: &[ElementTrace], label: &str) -> Result<RgbImage, FigureError> {
     let mut model = frame(broken);
-    let mesh = &broken.asset.fracture;
+    let mesh = broken.asset.fracture();
     for element in cut {
         let x = mesh.corners(element.tet as usize);
         for [i, j, k] in [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]] {
@@ -188,7 +188,7 @@ fn elements(broken: &Broken, cut: &[ElementTrace], label: &str) -> Result<RgbIma
 fn surface(broken: &Broken, cut: &[ElementTrace]) -> Result<RgbImage, FigureError> {
     let mut model = frame(broken);
     for element in cut {
-        for triangle in crossing(&broken.asset.fracture, element) {
+        for triangle in crossing(broken.asset.fracture(), element) {
             model.sheet(SURFACE, triangle);
             let [a, b, c] = triangle;
             for edge in [[a, b], [b, c], [c, a]] {

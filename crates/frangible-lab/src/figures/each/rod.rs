@@ -4,7 +4,7 @@ use crate::plot::{Axis, Chart, Marker, Series};
 use frangible::glam::{Quat, Vec3};
 use frangible::internals::DurationModel;
 use frangible::internals::contact::{contact_duration, modal_load, most_excited_mode};
-use frangible::{Asset, Body, Contact, Striker};
+use frangible::{Asset, Body, Breakable, Contact, Striker};
 use frangible_bake::Shape;
 use frangible_bake::mode_field::{mode_on_fracture_mesh, von_mises};
 use frangible_draw::{ModeCell, ModeSheetOptions, mode_sheet};
@@ -70,7 +70,7 @@ impl Landing {
 
     fn answer(self, body: &Body) -> Answer {
         let load = modal_load(body, &[self.contact(body.asset())]);
-        let modes = &body.asset().modes;
+        let modes = body.asset().modes();
         let shape = &load.touches[0].modal_shape;
         let mode = most_excited_mode(body.asset(), shape).unwrap_or(0);
         let duration = |model| contact_duration(body.asset(), &load, model);
@@ -108,7 +108,7 @@ const SHOWN: [Landing; 4] = [
 fn compute(workshop: &mut Workshop<'_>) -> Result<Findings, FigureError> {
     workshop.tell("baking the rod", 0.0);
     let rod = baked("rod", Shape::rod(LENGTH, SIDE), MATERIAL, 8000.0, MODES)?;
-    let body = Body::new(rod, 1)?;
+    let body = Breakable::uniform(rod)?.body(1);
     workshop.tell("landings", 0.6);
     let angles = (0..=30).map(|i| 3.0 * f64::from(i));
     let leaning: Vec<(f64, Answer)> = angles
@@ -267,14 +267,14 @@ fn cell(rod: &Asset, landing: Landing, answer: &Answer) -> ModeCell {
     let field = mode_on_fracture_mesh(rod, answer.mode);
     let largest = field.largest_displacement().max(f32::MIN_POSITIVE);
     let rotation = landing.rotation();
-    let positions = rod.fracture.positions.iter().zip(&field.displacements);
+    let positions = rod.fracture().positions.iter().zip(&field.displacements);
     let stresses: Vec<f32> = field.stresses.iter().map(von_mises).collect();
     let most = stresses.iter().copied().fold(f32::MIN_POSITIVE, f32::max);
     ModeCell {
         positions: positions
             .map(|(&p, &u)| rotation * (p + u * (DRAWN / largest)))
             .collect(),
-        triangles: rod.surface.triangles.clone(),
+        triangles: rod.surface().triangles.clone(),
         values: stresses.iter().map(|s| s / most).collect(),
         caption: landing.name(),
         note: format!(

@@ -123,7 +123,7 @@ fn pieces_of(run: &Run) -> usize {
 fn second_bounce() -> Result<Drop, FigureError> {
     let mut scene = small("glass")?;
     scene.duration = SEARCHED;
-    let baked = bake(&scene, &mut |_| {})?;
+    let baked = bake(&scene)?;
     let mut later = None;
     for tilt in TILTS {
         tilted(&mut scene, tilt);
@@ -188,7 +188,7 @@ fn piggy_bank() -> Result<Run, FigureError> {
         at: Vec3::new(0.0, 0.03, 0.0),
         ..Projectile::hammer(0.5, 0.02, HAMMER)
     });
-    let baked = bake(&scene, &mut |_| {})?;
+    let baked = bake(&scene)?;
     Ok(play(&scene, &baked, &mut |_| {})?)
 }
 
@@ -198,7 +198,7 @@ fn plate(material: &str) -> Result<Run, FigureError> {
     for body in &mut scene.bodies {
         body.material = Material::preset(material)?;
     }
-    let baked = bake(&scene, &mut |_| {})?;
+    let baked = bake(&scene)?;
     Ok(play(&scene, &baked, &mut |_| {})?)
 }
 

@@ -41,17 +41,15 @@ const STEP: f64 = 5e-5;
 
 fn striker(modulus: f64) -> Striker {
     let [mass, radius, _, restitution] = BALL;
-    Striker {
-        contact_modulus: modulus as f32,
-        inverse_effective_mass: (1.0 / mass) as f32,
-        curvature_radius: radius as f32,
-        restitution: restitution as f32,
-        ..Striker::rigid()
-    }
+    Striker::rigid()
+        .with_contact_modulus(modulus)
+        .with_effective_mass(mass)
+        .with_curvature_radius(radius)
+        .with_restitution(restitution)
 }
 
 fn contact(pig: &Asset, striker: Striker) -> Contact {
-    let flank = pig.fracture.positions.iter().copied();
+    let flank = pig.fracture().positions.iter().copied();
     let point = flank
         .max_by(|a, b| a.x.total_cmp(&b.x))
         .unwrap_or(Vec3::ZERO);
@@ -85,7 +83,7 @@ fn compute(workshop: &mut Workshop<'_>) -> Result<Findings, FigureError> {
     workshop.tell("baking the piggy bank", 0.0);
     let shape = Shape::ready("piggy_bank").ok_or(FigureError::Nothing("no piggy bank"))?;
     let pig = baked("piggy bank", shape, "paper-piggy", 20_000.0, MODES)?;
-    let body = Breakable::new(Arc::clone(&pig))?.body(1);
+    let body = Breakable::uniform(Arc::clone(&pig))?.body(1);
     let mut cells = Vec::new();
     let mut static_pieces = Vec::new();
     for (ball, word) in DRAWN {
@@ -270,13 +268,13 @@ fn picture(pig: &Asset, outcome: &Outcome, label: &str) -> Result<RgbImage, Figu
         };
         add_pieces(&mut model, &fracture.fragments, 0.22, turned, colours);
     } else {
-        for (triangle, normals) in pig.surface.triangles.iter().zip(&pig.surface.normals) {
-            let corners = triangle.map(|v| turned * pig.fracture.positions[v as usize]);
+        for (triangle, normals) in pig.surface().triangles.iter().zip(&pig.surface().normals) {
+            let corners = triangle.map(|v| turned * pig.fracture().positions[v as usize]);
             model.smooth(OUTSIDE, corners, normals.map(|n| turned * n));
         }
     }
     let points: Vec<Vec3> = pig
-        .fracture
+        .fracture()
         .positions
         .iter()
         .map(|&p| turned * p * 1.25)

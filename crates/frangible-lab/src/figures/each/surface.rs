@@ -38,7 +38,7 @@ fn compute(workshop: &mut Workshop<'_>) -> Result<Findings, FigureError> {
         .at(&section(&broken), "the section, and the elements it cuts")?,
     ]);
     let (surface, nodes) = deviations(&broken);
-    let mesh = &broken.asset.fracture;
+    let mesh = broken.asset.fracture();
     Ok(Findings {
         picture: Picture {
             image,
@@ -64,11 +64,11 @@ fn compute(workshop: &mut Workshop<'_>) -> Result<Findings, FigureError> {
 /// The smaller piece in place, and the wire frame of the whole.
 fn piece(broken: &Broken) -> Model {
     let mut model = Model::default();
-    let mesh = &broken.asset.fracture;
+    let mesh = broken.asset.fracture();
     add_edges(
         &mut model,
         mesh,
-        &broken.asset.surface.triangles,
+        &broken.asset.surface().triangles,
         [0.12, 0.13, 0.15, 1.0],
         1.6e-4,
     );
@@ -107,7 +107,7 @@ fn facing(broken: &Broken) -> Vec3 {
 /// The crack's surface, and the edges of the elements that it cuts.
 fn section(broken: &Broken) -> Model {
     let mut model = Model::default();
-    let mesh = &broken.asset.fracture;
+    let mesh = broken.asset.fracture();
     let mut edges = std::collections::BTreeSet::new();
     for element in broken.trace.cracks.iter().flatten() {
         for triangle in crossing(mesh, element) {
@@ -127,7 +127,7 @@ fn section(broken: &Broken) -> Model {
 
 /// Root mean square distances from the plane of the longest crack, m: of its own points, and of the nodes of its elements.
 fn deviations(broken: &Broken) -> (f64, f64) {
-    let mesh = &broken.asset.fracture;
+    let mesh = broken.asset.fracture();
     let Some(crack) = broken.trace.cracks.iter().max_by_key(|c| c.len()) else {
         return (0.0, 0.0);
     };

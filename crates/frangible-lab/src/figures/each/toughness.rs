@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::plot::{Axis, Chart, Marker, Series};
 use frangible::glam::Vec3;
 use frangible::internals::impact_traced;
-use frangible::{Asset, Body, Contact, FractureConfig};
+use frangible::{Asset, Breakable, Contact, FractureConfig};
 use image::RgbImage;
 
 use crate::figures::FigureError;
@@ -153,11 +153,11 @@ pub(crate) fn pattern(
     config: &FractureConfig,
     label: &str,
 ) -> Result<RgbImage, FigureError> {
-    let body = Body::new(Arc::clone(slab), 1)?;
+    let body = Breakable::uniform(Arc::clone(slab))?.body(1);
     let (_, trace) = impact_traced(&body, std::slice::from_ref(contact), config)?;
     let mut model = Model::default();
-    let mesh = &slab.fracture;
-    for (triangle, normals) in slab.surface.triangles.iter().zip(&slab.surface.normals) {
+    let mesh = slab.fracture();
+    for (triangle, normals) in slab.surface().triangles.iter().zip(&slab.surface().normals) {
         let corners = triangle.map(|v| mesh.positions[v as usize]);
         model.smooth([0.55, 0.72, 0.74, 1.0], corners, *normals);
     }

@@ -8,7 +8,7 @@ use frangible::internals::contact::{
 };
 use frangible::internals::modal::{Motion, respond};
 use frangible::internals::stress::{Symmetric3, largest_eigenvalue};
-use frangible::{Asset, Body, FractureConfig};
+use frangible::{Asset, Body, Breakable, FractureConfig};
 use frangible_bake::mode_field::mode_on_fracture_mesh;
 use frangible_draw::{ModeCell, ModeSheetOptions, mode_sheet};
 
@@ -80,10 +80,10 @@ struct Faces {
 
 impl Faces {
     fn new(slab: &Asset) -> Self {
-        let mut place = vec![u32::MAX; slab.fracture.positions.len()];
+        let mut place = vec![u32::MAX; slab.fracture().positions.len()];
         let mut nodes = Vec::new();
         let mut triangles = Vec::new();
-        for triangle in &slab.surface.triangles {
+        for triangle in &slab.surface().triangles {
             triangles.push(triangle.map(|v| {
                 if place[v as usize] == u32::MAX {
                     place[v as usize] = nodes.len() as u32;
@@ -97,8 +97,11 @@ impl Faces {
             nodes.iter().map(|&v| field.stresses[v]).collect()
         };
         Self {
-            points: nodes.iter().map(|&v| slab.fracture.positions[v]).collect(),
-            stresses: (0..slab.modes.count()).map(of_mode).collect(),
+            points: nodes
+                .iter()
+                .map(|&v| slab.fracture().positions[v])
+                .collect(),
+            stresses: (0..slab.modes().count()).map(of_mode).collect(),
             triangles,
         }
     }
@@ -120,7 +123,7 @@ fn compute(workshop: &mut Workshop<'_>) -> Result<Findings, FigureError> {
     workshop.tell("stresses of the modes", 0.3);
     let faces = Faces::new(&slab);
     let contact = slab_blow(&slab)?;
-    let body = Body::new(slab, 1)?;
+    let body = Breakable::uniform(slab)?.body(1);
     let waves = models().map(|(_, config)| wave(&body, contact.clone(), &config));
     let [paper, ours] = &waves;
 
@@ -234,7 +237,7 @@ fn wave(body: &Body, contact: frangible::Contact, config: &FractureConfig) -> Wa
     config.model = Model::Ours;
     let pulse = pulse(asset, &load, duration, &config);
     Wave {
-        motion: respond(&asset.modes, &asset.material, &load.modal_impulse, &pulse),
+        motion: respond(asset.modes(), asset.material(), &load.modal_impulse, &pulse),
         pulse,
     }
 }

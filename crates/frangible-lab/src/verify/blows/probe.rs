@@ -88,12 +88,12 @@ fn supported(plate: &Plate, edge: f64) -> Result<Asset, BakeError> {
             .collect(),
         ..BakeSpec::new("plate", Shape::plate(side, side, thickness), m)
     };
-    Ok(bake(&spec, &mut |_| {})?.0)
+    bake(&spec)
 }
 
 /// The asset with its lowest modes followed and the rest as its residual vector.
 pub(crate) fn following(mut asset: Asset, modes: usize) -> Asset {
-    asset.modes.residual_modes = asset.modes.count() - modes;
+    asset.parts_mut().modes.residual_modes = asset.modes().count() - modes;
     asset
 }
 
@@ -111,12 +111,12 @@ pub(crate) fn solid(
         fracture: Some(size),
         ..BakeSpec::new("solid", shape, material.clone())
     };
-    body(bake(&spec, &mut |_| {})?.0)
+    body(bake(&spec)?)
 }
 
 /// A body of an asset.
 pub(crate) fn body(asset: Asset) -> Result<Body, BakeError> {
-    Ok(Breakable::new(asset)?.body(1))
+    Ok(Breakable::uniform(asset)?.body(1))
 }
 
 /// A steel ball on the upper face of the plate.
@@ -158,7 +158,7 @@ pub(crate) fn places(
     distances: &[f64],
 ) -> Vec<Place> {
     let asset = body.asset();
-    let surface = &asset.surface;
+    let surface = asset.surface();
     let lower: Vec<Place> = surface
         .triangles
         .iter()

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use frangible_bake::{BakeError, bake};
+use frangible_bake::{BakeError, Baked, bake_with};
 
 use crate::verify::case::{Case, Findings};
 use crate::verify::check::{Check, hertz};
@@ -23,7 +23,7 @@ pub(crate) const CASE: Case = Case {
 const LAMB: &str = "H. Lamb, Proc. London Math. Soc. 13, 189 (1882)";
 
 fn compute(progress: &mut dyn FnMut(f64)) -> Result<Findings, BakeError> {
-    let (asset, report) = bake(&ball(RADIUS, &GLASS, None), &mut |p| progress(p.fraction))?;
+    let Baked { asset, report } = bake_with(&ball(RADIUS, &GLASS, None), |p| progress(p.fraction))?;
     let shear_speed = (GLASS.lame().1 / GLASS.density).sqrt();
     let of = |root: f64| root * shear_speed / (RADIUS * TAU);
     let (twist, football) = (
@@ -41,7 +41,7 @@ fn compute(progress: &mut dyn FnMut(f64)) -> Result<Findings, BakeError> {
         Check {
             name: "mass".into(),
             reference: GLASS.density * 4.0 / 3.0 * PI * RADIUS.powi(3),
-            value: asset.mass.mass,
+            value: asset.mass().mass,
             tolerance: 0.01,
             unit: "kg",
             source: "4/3 π r³ ρ",

@@ -88,7 +88,7 @@ pub(crate) fn force_on_plate(
     let (mass, radius) = (BALL[0], BALL[1]);
     let striker = strike::Striker {
         mass,
-        stiffness: spring(&plate.material, radius),
+        stiffness: spring(plate.material(), radius),
         speed: 20.0,
     };
     let exact = striker.against(PLATE.dashpot(), f64::INFINITY, 400.0);
@@ -133,7 +133,7 @@ pub(crate) fn restitution_at(
     const SPEED: f64 = 1.0;
     let of = |radius: f64| strike::Striker {
         mass: 7850.0 * 4.0 / 3.0 * PI * radius.powi(3),
-        stiffness: spring(&plate.material, radius),
+        stiffness: spring(plate.material(), radius),
         speed: SPEED,
     };
     let dashpot = PLATE.dashpot();
@@ -234,11 +234,9 @@ fn rod() -> Result<Vec<Check>, BakeError> {
     let mass = glass.density * area * LENGTH;
     let radius: f64 = 2e-3;
     let stiffness = 4.0 / 3.0 * glass.contact_modulus() * radius.sqrt();
-    let striker = Striker {
-        inverse_effective_mass: (1.0 / mass) as f32,
-        curvature_radius: radius as f32,
-        ..Striker::rigid()
-    };
+    let striker = Striker::rigid()
+        .with_effective_mass(mass)
+        .with_curvature_radius(radius);
     let contact = Contact::strike(
         Vec3::new(-0.5 * LENGTH as f32, 0.0, 0.0),
         Vec3::X,

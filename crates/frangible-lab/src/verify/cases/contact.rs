@@ -6,9 +6,9 @@ use std::sync::Arc;
 use frangible::glam::Vec3;
 use frangible::internals::DurationModel;
 use frangible::internals::contact::{contact_duration, hertz_duration, modal_load, pulse};
-use frangible::{Body, Contact, FractureConfig, Striker};
+use frangible::{Breakable, Contact, FractureConfig, Striker};
 use frangible_bake::fem::Elasticity;
-use frangible_bake::{BakeError, bake};
+use frangible_bake::{BakeError, bake_with};
 
 use crate::verify::case::{Case, Findings};
 use crate::verify::check::{Check, number};
@@ -65,21 +65,21 @@ fn compute(progress: &mut dyn FnMut(f64)) -> Result<Findings, BakeError> {
     ];
     // The duration asks nothing of the modes: few elements will do.
     let coarse = Some(0.5 * RADII[0]);
-    let asset = bake(&ball(RADII[0], &STEEL, coarse), &mut |p| {
+    let asset = bake_with(&ball(RADII[0], &STEEL, coarse), |p| {
         progress(0.9 * p.fraction);
     })?
-    .0;
-    let striker = Striker {
-        contact_modulus: (e / (1.0 - nu * nu)) as f32,
-        inverse_effective_mass: (1.0 / masses[1]) as f32,
-        curvature_radius: RADII[1] as f32,
-        restitution: 0.5,
-        ..Striker::rigid()
-    };
+    .asset;
+    let striker = Striker::rigid()
+        .with_contact_modulus(e / (1.0 - nu * nu))
+        .with_effective_mass(masses[1])
+        .with_curvature_radius(RADII[1])
+        .with_restitution(0.5);
     let top = Vec3::new(0.0, RADII[0] as f32, 0.0);
     let hit = Contact::strike(top, Vec3::NEG_Y, SPEED as f32, striker);
     let asset = Arc::new(asset);
-    let body = Body::new(Arc::clone(&asset), 1).map_err(BakeError::from)?;
+    let body = Breakable::uniform(Arc::clone(&asset))
+        .map_err(BakeError::from)?
+        .body(1);
     let load = modal_load(&body, &[hit]);
     let duration = contact_duration(&asset, &load, DurationModel::Hertz);
     checks.push(seconds(

@@ -45,7 +45,7 @@ fn meeting(
     let mut contact = Contact::strike(point, normal, speed as f32, Striker::rigid());
     contact.striker = Striker::flexible(&body, &contact, &config)?;
     contact.striker.curvature_radius = radius as f32;
-    let mass = body.asset().mass.mass;
+    let mass = body.asset().mass().mass;
     Ok((blow(&body, contact, &config)?, mass))
 }
 

@@ -36,9 +36,8 @@ pub(crate) fn clamped(
 
 /// The bake makes a body of the specification, and its weak points get the scatter of its material.
 pub(crate) fn breakable(case: &'static str, spec: &BakeSpec) -> Result<Breakable, VerifyError> {
-    let (asset, _) =
-        bake(spec, &mut |_| {}).map_err(|source| VerifyError::Bake { case, source })?;
-    let fields = Fields::of_material(&asset.material);
+    let asset = bake(spec).map_err(|source| VerifyError::Bake { case, source })?;
+    let fields = Fields::of_material(asset.material());
     Breakable::new(Arc::new(asset))
         .and_then(|body| body.with_fields(fields))
         .map_err(|source| VerifyError::Impact { case, source })

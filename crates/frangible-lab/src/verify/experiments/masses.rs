@@ -193,7 +193,7 @@ fn run(
 ) -> Result<MassRun, VerifyError> {
     let breakable = breakable(name, spec)?;
     let config = FractureConfig::default();
-    let whole = breakable.asset().mass.volume;
+    let whole = breakable.asset().mass().volume;
     let hit = |seed: u64| {
         let outcome = impact(
             &breakable.body(seed),

@@ -22,7 +22,7 @@ impl CrackPattern {
     pub fn of(asset: &Asset, trace: &CrackTrace, height: f64) -> Self {
         let cuts = trace.cracks.iter().flatten();
         let piece = |cut: &frangible::internals::ElementTrace| {
-            let corners = asset.fracture.corners(cut.tet as usize);
+            let corners = asset.fracture().corners(cut.tet as usize);
             piece(
                 corners.map(|c| c.as_dvec3().to_array()),
                 cut.values.map(f64::from),

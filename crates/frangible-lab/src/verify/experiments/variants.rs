@@ -138,13 +138,13 @@ impl Variant {
         glass: &Material,
     ) -> Result<Breakable, InputError> {
         let mut asset = (**plate.asset()).clone();
-        asset.material.strength *= self.strength;
-        asset.material.weak_point_density *= self.weak_points;
+        asset.parts_mut().material.strength *= self.strength;
+        asset.parts_mut().material.weak_point_density *= self.weak_points;
         if self.forks_as_glass {
-            asset.material.branching_constant = glass.branching_constant;
+            asset.parts_mut().material.branching_constant = glass.branching_constant;
         }
         let fields = if self.scatter {
-            Fields::of_material(&asset.material)
+            Fields::of_material(asset.material())
         } else {
             Fields::default()
         };

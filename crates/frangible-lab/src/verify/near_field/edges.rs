@@ -26,7 +26,7 @@ pub(super) struct EdgeRow {
 
 pub(super) fn compute(plate: &Asset) -> Result<Vec<EdgeRow>, BakeError> {
     let supported = body(plate.clone())?;
-    let wavelength = wavelength_of(plate.modes.count());
+    let wavelength = wavelength_of(plate.modes().count());
     let mut rows = Vec::new();
     for (name, at) in [
         (
@@ -100,7 +100,7 @@ fn other(held: bool) -> Result<Asset, BakeError> {
             m,
         )
     };
-    Ok(bake(&spec, &mut |_| {})?.0)
+    bake(&spec)
 }
 
 /// Few modes, the others as residual vector, and the near field, beside all modes and theirs: the total stress around the contact.

@@ -29,7 +29,7 @@ pub(super) fn compute() -> Result<Vec<ResidualRow>, BakeError> {
             fracture: Some(shape.size_for(9000.0)?),
             ..BakeSpec::new(name, shape, material)
         };
-        Ok(bake(&spec, &mut |_| {})?.0)
+        bake(&spec)
     };
     let brick = of(Shape::block([0.21, 0.1, 0.05]), "brick")?;
     let glass = of(Shape::drinking_glass(), "glass")?;
@@ -83,7 +83,7 @@ pub(super) fn compute() -> Result<Vec<ResidualRow>, BakeError> {
 fn largest(body: &Body, contact: Contact, config: &FractureConfig) -> Result<f64, BakeError> {
     let blow = blow(body, contact, config)?;
     let report = &blow.reports()[0];
-    let mesh = &body.asset().fracture;
+    let mesh = body.asset().fracture();
     let near = |&e: &u32| mesh.centroid(e as usize).distance(report.point) < 0.02;
     let (under, rest): (Vec<u32>, Vec<u32>) = body.weak_tets().iter().partition(|e| near(e));
     let under = under.iter().step_by((under.len() / 150).max(1));

@@ -42,14 +42,14 @@ pub(crate) fn rebake(broken: &Broken, chosen: &Chosen, sample: &PieceSample) -> 
     });
     let spec = BakeSpec {
         modes: FREQUENCIES + 3,
-        ..BakeSpec::new("a fragment", shape, broken.body.asset().material.clone())
+        ..BakeSpec::new("a fragment", shape, broken.body.asset().material().clone())
     };
-    let (asset, _) = bake(&spec, &mut |_| {}).ok()?;
+    let asset = bake(&spec).ok()?;
     let own = sample.truth.frequencies.iter().enumerate();
     Some(Rebaked {
         name: sample.name.clone(),
         tets: sample.tets,
-        volume: asset.mass.volume / fragment.mass.volume,
-        frequencies: own.map(|(i, f)| f / asset.modes.frequency(i)).collect(),
+        volume: asset.mass().volume / fragment.mass.volume,
+        frequencies: own.map(|(i, f)| f / asset.modes().frequency(i)).collect(),
     })
 }

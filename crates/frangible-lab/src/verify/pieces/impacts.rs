@@ -36,7 +36,7 @@ pub(crate) fn place(body: &Body, piece: usize, blow: usize) -> (Vec3, Vec3) {
         let [a, b, c] = corners(t);
         (b - a).cross(c - a)
     };
-    let triangles = &asset.surface.triangles;
+    let triangles = &asset.surface().triangles;
     let whole: f64 = triangles.iter().map(|t| area(t).length()).sum();
     let mut left = random(piece, blow, 0) * whole;
     let mut hit = triangles.len().saturating_sub(1);
@@ -66,7 +66,7 @@ pub(crate) fn contact(
 ) -> Contact {
     let asset = body.asset();
     let striker = if asset.is_supported() {
-        Striker::ball(steel, asset.mass.mass, BALL)
+        Striker::ball(steel, asset.mass().mass, BALL)
     } else {
         Striker::fixed(stone)
     };

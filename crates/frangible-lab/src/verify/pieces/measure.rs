@@ -116,10 +116,10 @@ impl Bodies {
         let brittle = broken.body.piece(portion, elastic)?;
         let ready = clock::now() - start;
         let asset = brittle.asset();
-        let count = asset.modes.count().min(FREQUENCIES);
+        let count = asset.modes().count().min(FREQUENCIES);
         let reading = Reading {
-            elements: asset.analysis.elements.len(),
-            frequencies: (0..count).map(|i| asset.modes.frequency(i)).collect(),
+            elements: asset.analysis().elements.len(),
+            frequencies: (0..count).map(|i| asset.modes().frequency(i)).collect(),
             ready,
             bytes: bytes(asset),
         };
@@ -133,14 +133,14 @@ impl Bodies {
 
 /// Memory of a piece's own arrays, bytes: elements, modes, embedding, surface.
 fn bytes(asset: &Asset) -> usize {
-    let (analysis, surface) = (&asset.analysis, &asset.surface);
+    let (analysis, surface) = (asset.analysis(), asset.surface());
     size_of_val(&*analysis.nodes)
         + size_of_val(&*analysis.elements)
         + size_of_val(&*analysis.barycentric_gradients)
-        + size_of_val(&*asset.modes.eigenvalues)
-        + size_of_val(&*asset.modes.shapes)
-        + size_of_val(&*asset.embedding.nodes)
-        + size_of_val(&*asset.embedding.tets)
+        + size_of_val(&*asset.modes().eigenvalues)
+        + size_of_val(&*asset.modes().shapes)
+        + size_of_val(&*asset.embedding().nodes)
+        + size_of_val(&*asset.embedding().tets)
         + size_of_val(&*surface.triangles)
         + size_of_val(&*surface.normals)
         + size_of_val(&*surface.tets)

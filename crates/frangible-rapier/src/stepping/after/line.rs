@@ -91,7 +91,7 @@ impl BreakableWorld {
         if self.clears_quickly && is_harmless(body, &impact.contacts, config) {
             0
         } else {
-            body.asset().embedding.tets.len().max(1)
+            body.asset().embedding().tets.len().max(1)
         }
     }
 }

@@ -38,6 +38,7 @@ impl Asset {
     ///
     /// # Errors
     /// The errors of [`Asset::save`].
+    #[doc(hidden)]
     pub fn save_with(
         &self,
         path: impl AsRef<Path>,

@@ -17,6 +17,7 @@ impl Asset {
     }
 
     /// The asset as bytes, in the form that the options ask for. Compact mode shapes come back as [`Asset::with_compact_shapes`] gives them.
+    #[doc(hidden)]
     #[must_use]
     pub fn to_bytes_with(&self, options: &SaveOptions) -> Vec<u8> {
         let mut w = Writer::default();

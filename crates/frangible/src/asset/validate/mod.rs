@@ -21,6 +21,7 @@ impl Asset {
     ///
     /// # Errors
     /// [`InputError::Asset`] with the first array at fault.
+    #[doc(hidden)]
     pub fn validate(&self) -> Result<(), InputError> {
         self.material.validate()?;
         self.check().map_err(|problem| InputError::Asset {

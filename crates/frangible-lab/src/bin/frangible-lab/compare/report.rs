@@ -95,18 +95,18 @@ impl CompareReport {
         let asset = found.body.asset();
         let hardest = found.contacts.iter().map(|c| c.approach_speed);
         let impulses = found.contacts.iter().map(|c| f64::from(c.impulse));
-        let volume = asset.fracture.total_volume();
+        let volume = asset.fracture().total_volume();
         Self {
             scene: scene.into(),
             seed,
             body: found.name.clone(),
-            material: asset.material.name.clone(),
+            material: asset.material().name.clone(),
             time_s: found.time,
             contacts: found.contacts.len(),
             impulse_n_s: impulses.sum(),
             approach_speed_m_s: f64::from(hardest.fold(0.0, f32::max)),
             approach_energy_j: frangible::internals::contact::approach_energy(&found.contacts),
-            volume_m3: asset.mass.volume,
+            volume_m3: asset.mass().volume,
             methods: all.iter().map(|b| MethodReport::new(b, volume)).collect(),
             files: Vec::new(),
             notes: Vec::new(),
