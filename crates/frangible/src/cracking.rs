@@ -164,7 +164,7 @@ impl<'a> Cracking<'a> {
                     step = from;
                     blow.go_on(body, step, &changed.contacts, changed.groups);
                     displacement.forget();
-                    system.releases.forget_batch();
+                    system.forget_batch();
                 }
             }
             // A shorter blow brings less in the end.

@@ -15,11 +15,10 @@
 
 use glam::Vec3;
 
-use crate::asset::{AnalysisMesh, Asset, EmbeddedPoint, StressBounds};
+use crate::asset::{Asset, EmbeddedPoint, StressBounds};
 use crate::material::Material;
 use crate::mesh::TetMesh;
-use crate::modal::ModalBasis;
-use crate::stress::{Elasticity, Lanes, Places, Skin, Symmetric3, Wide};
+use crate::stress::{BATCH, Elasticity, Lanes, Law, Places, Skin, Wide};
 
 /// Largest number of tetrahedra of a cluster.
 const CLUSTER: usize = 256;
@@ -54,28 +53,20 @@ impl StressBounds {
             gradient: vec![0.0; clusters * m],
         };
         let mut rows = Rows::new(m, &asset.material);
-        let law = Elasticity::new(&asset.material);
         let on_face = |rows: &mut Rows, bounds: &mut Self, place: usize, weights: &[[f32; 3]]| {
             let Some(flaw) = skin.flaw(place) else { return };
             let wall = skin.wall(asset, numbers[place]);
             let along = wall.and_then(|wall| wall.edge(flaw.normal));
+            let laws = [Some(Law::Free(flaw.normal)), along.map(Law::Edge)];
             for &weights in weights {
                 let (_, point) = Skin::on_face(asset, flaw, weights);
-                rows.gradients(&point, &asset.analysis, &asset.modes);
-                rows.raise(bounds, place, |strain| law.free_hooke(strain, flaw.normal));
-                if let Some(along) = along {
-                    rows.raise(bounds, place, |strain| law.edge_hooke(strain, along));
-                }
+                raise(rows, bounds, place, asset, &point, laws);
             }
         };
         for (place, (&tet, point)) in numbers.iter().zip(&asset.embedding.tets).enumerate() {
-            rows.gradients(point, &asset.analysis, &asset.modes);
-            rows.raise(&mut bounds, place, |strain| law.hooke(strain));
-            if let Some(wall) = skin.wall(asset, tet) {
-                rows.raise(&mut bounds, place, |strain| {
-                    law.free_hooke(strain, wall.normal)
-                });
-            }
+            let wall = skin.wall(asset, tet);
+            let laws = [Some(Law::Solid), wall.map(|wall| Law::Free(wall.normal))];
+            raise(&mut rows, &mut bounds, place, asset, point, laws);
             on_face(&mut rows, &mut bounds, place, &[Places::MIDDLE]);
         }
         let peak_stress = bounds.root(m).0;
@@ -175,94 +166,114 @@ fn sums_of_sizes(sizes: &[Lanes], row: &[f32]) -> Lanes {
     all.0
 }
 
-/// Gradients of all modes at one tetrahedron, struct of arrays.
+/// Gradients of all modes at one place, sixteen modes side by side.
 struct Rows {
-    /// ∂u_row/∂x_column of every mode, nine arrays one after another: `9 * modes`.
-    gradient: Vec<f32>,
-    /// Σ |φ| |∇N| of every mode, to which rounding is relative.
-    terms: Vec<f32>,
+    /// ∂u_row/∂x_column, row after row.
+    gradient: Vec<[Lanes; 9]>,
+    /// Σ |φ| |∇N|, to which rounding is relative.
+    terms: Vec<Lanes>,
     /// k of the quadratic term, Pa.
     modulus: f32,
+    elasticity: Elasticity,
 }
 
 impl Rows {
     fn new(modes: usize, material: &Material) -> Self {
+        let chunks = modes.div_ceil(BATCH);
         Self {
-            gradient: vec![0.0; 9 * modes],
-            terms: vec![0.0; modes],
+            gradient: vec![[Lanes::default(); 9]; chunks],
+            terms: vec![Lanes::default(); chunks],
             modulus: quadratic_modulus(material),
+            elasticity: Elasticity::new(material),
         }
     }
 
-    fn gradients(&mut self, point: &EmbeddedPoint, analysis: &AnalysisMesh, modes: &ModalBasis) {
-        self.gradient.fill(0.0);
-        self.terms.fill(0.0);
-        let m = self.terms.len();
+    #[inline(always)]
+    fn find(&mut self, asset: &Asset, point: &EmbeddedPoint) {
         let element = point.element as usize;
-        let weights = point.shape_gradients(&analysis.barycentric_gradients[element]);
-        for (&node, g) in analysis.elements[element].iter().zip(weights) {
-            let size = g.abs().element_sum();
-            for (row, phi) in modes.rows(node as usize).into_iter().enumerate() {
-                for (t, &p) in self.terms.iter_mut().zip(phi) {
-                    *t += p.abs() * size;
+        let weights = point.shape_gradients(&asset.analysis.barycentric_gradients[element]);
+        let nodes = &asset.analysis.elements[element];
+        for (chunk, (gradient, terms)) in self.gradient.iter_mut().zip(&mut self.terms).enumerate()
+        {
+            (*gradient, *terms) = ([Lanes::default(); 9], Lanes::default());
+            for n in 0..nodes.len() {
+                let g = weights[n];
+                let size = g.abs().element_sum();
+                let rows = asset.modes.rows(nodes[n] as usize);
+                for row in 0..3 {
+                    let mut phi = Lanes::default();
+                    let own = &rows[row][chunk * BATCH..];
+                    let own = &own[..own.len().min(BATCH)];
+                    phi[..own.len()].copy_from_slice(own);
+                    let [x, y, z] = [3 * row, 3 * row + 1, 3 * row + 2];
+                    for k in 0..BATCH {
+                        terms[k] += phi[k].abs() * size;
+                        gradient[x][k] += phi[k] * g.x;
+                        gradient[y][k] += phi[k] * g.y;
+                        gradient[z][k] += phi[k] * g.z;
+                    }
                 }
-                let block = &mut self.gradient[3 * row * m..3 * (row + 1) * m];
-                let (x, rest) = block.split_at_mut(m);
-                let (y, z) = rest.split_at_mut(m);
-                accumulate(phi, g, x, y, z);
             }
         }
     }
 
-    /// Raises the bounds of the cluster of the tetrahedron at a place to this point's values; `law`: stress of a strain, linear in it.
-    fn raise(
-        &self,
-        bounds: &mut StressBounds,
-        place: usize,
-        law: impl Fn(&Symmetric3) -> Symmetric3,
-    ) {
+    /// Raises the bounds of the cluster of the tetrahedron at a place to this point's values by a law.
+    #[inline(always)]
+    fn raise(&self, bounds: &mut StressBounds, place: usize, modes: usize, law: Law) {
         let cluster = bounds.cluster_of_tet[place] as usize;
-        let row = cluster * self.terms.len()..(cluster + 1) * self.terms.len();
-        let stress = &mut bounds.stress[row.clone()];
-        let gradient = &mut bounds.gradient[row];
-        let m = stress.len();
-        let at = |k: usize, i: usize| self.gradient[k * m + i];
-        for i in 0..m {
-            let g: [f32; 9] = std::array::from_fn(|k| at(k, i));
-            let allowance = ROUNDING * self.terms[i];
-            let frobenius = g.iter().map(|x| x * x).sum::<f32>().sqrt() + allowance;
-            gradient[i] = gradient[i].max(frobenius);
-            let Symmetric3 {
-                diagonal: [xx, yy, zz],
-                off: [xy, yz, zx],
-            } = law(&Symmetric3 {
-                diagonal: [g[0], g[4], g[8]],
-                off: [
-                    0.5 * (g[1] + g[3]),
-                    0.5 * (g[5] + g[7]),
-                    0.5 * (g[6] + g[2]),
-                ],
-            });
-            let s = [xx, yy, zz, yz, zx, xy];
+        let row = cluster * modes..(cluster + 1) * modes;
+        let stress = bounds.stress[row.clone()].chunks_mut(BATCH);
+        let norms = bounds.gradient[row].chunks_mut(BATCH);
+        let known = self.gradient.iter().zip(&self.terms);
+        for ((g, terms), (stress, norms)) in known.zip(stress.zip(norms)) {
+            let at = |k: usize| Wide(g[k]);
+            let allowance = Wide(*terms) * ROUNDING;
+            let mut squares = at(0) * at(0);
+            for k in 1..9 {
+                squares = squares + at(k) * at(k);
+            }
+            let frobenius = squares.sqrt() + allowance;
+            for (norm, new) in norms.iter_mut().zip(frobenius.0) {
+                *norm = norm.max(new);
+            }
+            let strain = [
+                at(0),
+                at(4),
+                at(8),
+                (at(1) + at(3)) * 0.5,
+                (at(5) + at(7)) * 0.5,
+                (at(6) + at(2)) * 0.5,
+            ];
+            let s @ [xx, yy, zz, xy, yz, zx] = self.elasticity.linear(&strain, law);
             // The Frobenius norm is never below the spectral norm: nearly all tetrahedra end here.
-            let squared = s[0] * s[0]
-                + s[1] * s[1]
-                + s[2] * s[2]
-                + 2.0 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]);
-            let allowance = self.modulus * allowance;
-            if squared.sqrt() + allowance > stress[i] {
-                let norm = spectral_norm(s.map(f64::from)) as f32 * (1.0 + 1e-6);
-                stress[i] = stress[i].max(norm + allowance);
+            let squares = xx * xx + yy * yy + zz * zz + (yz * yz + zx * zx + xy * xy) * 2.0;
+            let allowance = allowance * self.modulus;
+            let most = squares.sqrt() + allowance;
+            for (k, bound) in stress.iter_mut().enumerate() {
+                if most.0[k] > *bound {
+                    let [xx, yy, zz, xy, yz, zx] = s.each_ref().map(|s| f64::from(s.0[k]));
+                    let norm = spectral_norm([xx, yy, zz, yz, zx, xy]) as f32 * (1.0 + 1e-6);
+                    *bound = bound.max(norm + allowance.0[k]);
+                }
             }
         }
     }
 }
 
-fn accumulate(phi: &[f32], g: Vec3, x: &mut [f32], y: &mut [f32], z: &mut [f32]) {
-    for (((&p, x), y), z) in phi.iter().zip(x).zip(y).zip(z) {
-        *x += p * g.x;
-        *y += p * g.y;
-        *z += p * g.z;
+widest! {
+    /// Raises the bounds of the cluster of the tetrahedron at a place to the values of a point by some laws.
+    fn raise(
+        rows: &mut Rows,
+        bounds: &mut StressBounds,
+        place: usize,
+        asset: &Asset,
+        point: &EmbeddedPoint,
+        laws: [Option<Law>; 2],
+    ) {
+        rows.find(asset, point);
+        for law in laws.into_iter().flatten() {
+            rows.raise(bounds, place, asset.modes.count(), law);
+        }
     }
 }
 

@@ -221,7 +221,7 @@ pub(super) fn start(
     let area = system.area(&x, &values, fork.normal);
     let felt = field.at(e as usize, crossing_middle(&x, &values));
     // It grows from the crack that it leaves, and is fed as that one is.
-    let flaw = system.depth(&system.cracks[parent as usize], e, &felt);
+    let flaw = system.depth(&system.cracks[parent as usize], e, felt.wall.is_some());
     let gain = flaw * felt.energy_across(fork.normal, material.contact_modulus());
     if area <= 0.0
         || gain <= system.resistance.toughness.of(e)

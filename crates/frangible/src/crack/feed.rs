@@ -12,6 +12,7 @@ use std::f64::consts::PI;
 use glam::Vec3;
 
 use super::felt::Felt;
+use super::field::StressField;
 use super::release::once;
 use super::single::{Crack, ElementCut, Front};
 use super::system::{CrackSystem, ELSEWHERE, UNCUT};
@@ -30,14 +31,14 @@ const INSIDE_MOST: f64 = PENNY / 4.0;
 const AT_SURFACE_MOST: f64 = AT_SURFACE * PENNY / 2.0;
 
 impl CrackSystem<'_> {
-    /// Depth of the layer that feeds a front of a crack under this stress, m.
-    pub(super) fn depth(&self, crack: &Crack, tet: u32, felt: &Felt) -> f64 {
+    /// Depth of the layer that feeds a front of a crack at a tetrahedron, which is part of a wall or not, m.
+    pub(super) fn depth(&self, crack: &Crack, tet: u32, in_wall: bool) -> f64 {
         if self.resistance.is_grooved(tet) {
             return self.paid_at_strength(tet);
         }
         let surface = if crack.at_surface { AT_SURFACE } else { 1.0 };
         let grown = surface * PENNY * crack.area / crack.front.max(f64::MIN_POSITIVE);
-        let most = self.most_depth(tet, crack.at_surface || felt.wall.is_some());
+        let most = self.most_depth(tet, crack.at_surface || in_wall);
         crack.flaw.max(grown).min(most)
     }
 
@@ -67,39 +68,24 @@ impl CrackSystem<'_> {
         most * f64::from(self.thickness[tet as usize])
     }
 
-    /// Returns true if the stress still does not pay for a front that was refused, whichever way the crack turns: it need not be steered then.
-    /// The area is that of the refusal.
-    pub(super) fn stays_refused(&self, front: &Front, felt: &Felt, at: Vec3) -> bool {
-        if front.refused <= 0.0 || self.config.is_paper() {
-            return false;
-        }
-        let crack = &self.cracks[front.crack as usize];
-        let depth = self.tip_depth(front);
-        let depth = depth.unwrap_or_else(|| self.depth(crack, front.tet, felt));
-        let most = f64::from(felt.largest_tension());
-        let gain = depth * 0.5 * most * most / self.asset.material.contact_modulus();
-        let gain =
-            gain.max(self.section_feed(front, at, crack.elements[front.from as usize].direction));
-        let cost = self.cost(front.tet, front.refused);
-        crack.spent + cost >= crack.available + f64::from(front.refused) * gain
-    }
-
     /// Energy that an area, m², of a front sets free, J `[G12 Eq. 12]`; where it is no more than `enough`, a bound. `normal`: unit normal of the
     /// crack there, at this place, m.
     ///
     /// In a solid other cracks release the front. In a wall they release only weak points and forks.
     pub(super) fn gain(
-        &self,
+        &mut self,
         front: &Front,
         felt: &Felt,
         (normal, at, area): (Vec3, Vec3, f32),
         enough: f64,
+        field: &mut StressField,
     ) -> f64 {
         let material = &self.asset.material;
         if self.config.is_paper() {
             let density = f64::from(felt.state.energy_density);
             return f64::from(area) * material.energy_depth * density;
         }
+        let by_section = self.section_feed(front, at, normal, field);
         let crack = &self.cracks[front.crack as usize];
         let modulus = material.contact_modulus();
         let per_area = match self.tip_depth(front) {
@@ -107,9 +93,11 @@ impl CrackSystem<'_> {
                 let opening = felt.opening(normal, material.poisson_ratio);
                 depth * 0.5 * opening * opening / modulus
             }
-            None => self.depth(crack, front.tet, felt) * felt.energy_across(normal, modulus),
+            None => {
+                self.depth(crack, front.tet, felt.wall.is_some())
+                    * felt.energy_across(normal, modulus)
+            }
         };
-        let by_section = self.section_feed(front, at, normal);
         let whole = f64::from(area) * per_area.max(by_section);
         if felt.wall.is_some() || per_area <= by_section || whole <= enough {
             return whole;

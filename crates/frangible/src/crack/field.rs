@@ -87,6 +87,11 @@ impl<'a> StressField<'a> {
         }
     }
 
+    /// Upper bounds of the largest tension that [`at`](Self::at) finds there, but for rounding, at all steps of the batch, Pa.
+    pub(super) fn tension_bounds(&mut self, e: usize, place: Vec3) -> Lanes {
+        tension_bounds(self, e, place)
+    }
+
     /// The wall that fracture tetrahedron `e` is part of.
     pub(crate) fn wall(&self, e: usize) -> Option<Wall> {
         wall_of(self.asset, self.skin, self.config, e)
@@ -262,13 +267,32 @@ impl<'a> StressField<'a> {
         self.elasticity.set_energy(lanes);
     }
 
-    /// Displacement of an analysis node at the step, m.
-    pub(super) fn displacement_of(&mut self, node: u32) -> Vec3 {
-        (self.moment).displacement(self.asset, self.motion, node as usize, self.step)
-    }
-
     fn gradient(&mut self, point: &EmbeddedPoint) -> glam::Mat3 {
         (self.moment).gradient(self.asset, self.motion, point, self.step)
+    }
+}
+
+widest! {
+    /// Bounds of the tension at a place.
+    fn tension_bounds(field: &mut StressField<'_>, e: usize, place: Vec3) -> Lanes {
+        let (asset, aside) = (field.asset, place - field.centroids[e]);
+        let centre = shifted(asset, asset.embedded_tet(e), aside);
+        let Some(wall) = field.wall(e) else {
+            let gradients = field.displacement.gradients(asset, &centre);
+            return field.elasticity.lanes(&gradients, Law::Solid).tension_bounds();
+        };
+        let mut most = Lanes::default();
+        for distance in wall.distances(place) {
+            let up = wall.normal * distance;
+            let gradients = field.displacement.gradients(asset, &shifted(asset, &centre, up));
+            let mut lanes = field.elasticity.lanes(&gradients, Law::Free(wall.normal));
+            field.near.add(&mut lanes, place + up, &wall, field.step / STRIDE);
+            let bounds = lanes.tension_bounds();
+            for k in 0..BATCH {
+                most[k] = most[k].max(bounds[k]);
+            }
+        }
+        most
     }
 }
 

@@ -6,7 +6,8 @@
 //! *Propagation* (`propagation.rs`). Fronts spread over the crack's own surface (`arrival.rs`). A front enters a neighbouring tetrahedron if the
 //! crack surface crosses it, there is no obstacle, and the available energy suffices. A crack through a wall opens from one face and follows the
 //! tension of that face; if it followed the face with the larger tension, it would curl into petals. It is driven by the mean energy through the
-//! wall. It may branch (`branching.rs`), and may cross a crack that opens from the other face of the wall (`passing.rs`).
+//! wall. It may branch (`branching.rs`), and may cross a crack that opens from the other face of the wall (`passing.rs`). A front that lacks energy
+//! waits and is tried at each step; an upper bound of its tension refuses most tries (`waiting.rs`).
 //!
 //! *Sections* (`sections.rs`, `section.rs`, `strip.rs`). A crack in a solid that is large against the section it lies in is also driven by the force and
 //! the moment of that section, since the stress ahead of it in the unbroken body no longer says what acts on its front.
@@ -43,6 +44,7 @@ mod strip;
 mod surface;
 mod suspects;
 mod system;
+mod waiting;
 mod weak_rows;
 mod weak_stress;
 

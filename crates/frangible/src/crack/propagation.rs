@@ -81,9 +81,14 @@ fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
     if system.rests(front.tet, front.arrival) {
         return;
     }
-    let mut crossing = Crossing::of(system, &front);
     // Stress is costly to find: a front that lacks energy waits without it. A turn would hardly change its area.
-    let (straight, place) = straight_on(system, &front, &crossing);
+    let ahead @ (straight, place) = match front.waiting {
+        Some(waiting) => {
+            let waiting = &system.waiting[waiting as usize];
+            (waiting.area, waiting.place)
+        }
+        None => straight_on(system, &front, &Crossing::of(system, &front)),
+    };
     let area = system.edge * system.edge;
     let lacks = match front.lacks {
         0.0 if system.ledger.has(system.cost(front.tet, area)) => 0.0,
@@ -92,15 +97,19 @@ fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
     };
     if !system.ledger.has(lacks) {
         if !system.ledger.never_has(lacks) {
-            system.stalled.push(Front { lacks, ..front });
+            system.wait(Front { lacks, ..front }, ahead);
         }
         return;
     }
-    let felt = field.at(n, place);
     system.keep_section(front.crack, field);
-    if system.stays_refused(&front, &felt, place) {
-        return system.stalled.push(front);
+    if system.waits_on(&front, field) {
+        return system.wait(front, ahead);
     }
+    let felt = field.at(n, place);
+    if system.stays_refused(&front, &felt, place, field) {
+        return system.wait(front, ahead);
+    }
+    let mut crossing = Crossing::of(system, &front);
     let Some((direction, opens)) = steers(system, &felt, &front, &mut crossing) else {
         return system.meet(&front, true);
     };
@@ -115,13 +124,17 @@ fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
         },
     };
     let area = system.area(&crossing.x, &cut.values, cut.direction);
-    match pays(system, &felt, &front, &cut, place, area) {
+    match pays(system, field, &felt, &front, &cut, (place, area)) {
         Payment::Refused => {}
-        Payment::Later { lacks } => system.stalled.push(Front {
-            lacks,
-            refused: area,
-            ..front
-        }),
+        Payment::Later { lacks } => {
+            let refused = area;
+            let front = Front {
+                lacks,
+                refused,
+                ..front
+            };
+            system.wait(front, ahead);
+        }
         Payment::Now { gain } => {
             let fork = forks(system, &front, &cut, &felt);
             let entered = crossing.entered(&front, &cut);
@@ -267,17 +280,18 @@ enum Payment {
 
 /// The energy test of a front `[G12 Algorithm 2]`: `E_f + A_n G_c < E_s + A_n γ η_n`.
 fn pays(
-    system: &CrackSystem,
+    system: &mut CrackSystem,
+    field: &mut StressField,
     felt: &Felt,
     front: &Front,
     cut: &ElementCut,
-    at: Vec3,
-    area: f32,
+    (at, area): (Vec3, f32),
 ) -> Payment {
     let crack = &system.cracks[front.crack as usize];
     let cost = system.cost(front.tet, area);
     let enough = crack.spent + cost - crack.available;
-    let gain = system.gain(front, felt, (cut.direction, at, area), enough);
+    let gain = system.gain(front, felt, (cut.direction, at, area), enough, field);
+    let crack = &system.cracks[front.crack as usize];
     if system.ledger.never_has(cost) {
         Payment::Refused
     } else if !system.ledger.has(cost) {

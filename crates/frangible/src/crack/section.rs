@@ -7,9 +7,14 @@
 //! f = (N, M), the energy release rate is `½ fᵀ (∂C/∂A) f`, which is K²/E'. The cracks relax f: `f = (1 + G Λ⁻¹ Gᵀ C)⁻¹ f₀`, where the rows of G
 //! are the N and M of the modes, and f₀ those of the motion without the cracks.
 
+use std::sync::Arc;
+
 use glam::{Vec2, Vec3};
 
 use super::strip;
+use crate::asset::Asset;
+use crate::motion::Motion;
+use crate::stress::{Shape, dot};
 
 /// Cosine of the largest angle between a section and a crack that runs along it.
 pub(super) const ALONG: f32 = 0.7;
@@ -35,7 +40,11 @@ pub(super) struct Section {
     pub(super) nodes: Vec<u32>,
     /// Their factors in N, N/m, and M, N, of each column: `[node][column]`.
     pub(super) factors: Vec<[Vec3; 2]>,
-    /// G Λ⁻¹ Gᵀ, a row for N and one for M of each column.
+    /// G: resultants of the modes that are followed, of unit amplitude: `[resultant][mode]`, N and M of each column one after the other.
+    pub(super) of_modes: Vec<f32>,
+    /// Those of the shapes that follow the forces, per newton.
+    of_shapes: Vec<(Arc<Shape>, Vec<f64>)>,
+    /// G Λ⁻¹ Gᵀ.
     pub(super) stiffness: Vec<f64>,
     /// N and M of the columns in the motion, N and N m, and the time step.
     resultants: Vec<f64>,
@@ -192,6 +201,8 @@ impl Section {
             columns,
             nodes: Vec::new(),
             factors: Vec::new(),
+            of_modes: Vec::new(),
+            of_shapes: Vec::new(),
             stiffness: Vec::new(),
             step: usize::MAX,
             found: 0.0,
@@ -235,44 +246,64 @@ impl Section {
         self.known = false;
     }
 
-    /// Finds the resultants of a time step from the displacements of the analysis nodes, m.
-    pub(super) fn set_step(&mut self, step: usize, mut displacement: impl FnMut(u32) -> Vec3) {
-        self.resultants.fill(0.0);
-        for (&node, factors) in self
-            .nodes
-            .iter()
-            .zip(self.factors.chunks(self.columns.len()))
-        {
-            let u = displacement(node);
-            for (sum, factor) in self.resultants.iter_mut().zip(factors.as_flattened()) {
-                *sum += f64::from(factor.dot(u));
+    /// Finds the resultants of a time step of a motion.
+    pub(super) fn set_step(&mut self, asset: &Asset, motion: &Motion, step: usize) {
+        if self.step == step {
+            return;
+        }
+        let residuals = &motion.complement.residuals;
+        for (k, residual) in residuals.iter().enumerate() {
+            let known = self.of_shapes.get(k).map(|(shape, _)| shape);
+            if !known.is_some_and(|shape| Arc::ptr_eq(shape, &residual.shape)) {
+                self.of_shapes.truncate(k);
+                let own = self.of_shape(asset, &residual.shape);
+                self.of_shapes.push((Arc::clone(&residual.shape), own));
+            }
+        }
+        let modes = self.of_modes.chunks(motion.modes.max(1));
+        for (k, (sum, row)) in self.resultants.iter_mut().zip(modes).enumerate() {
+            *sum = f64::from(dot(row, motion.at(step)));
+            for (residual, (_, own)) in residuals.iter().zip(&self.of_shapes) {
+                *sum += own[k] * f64::from(residual.force(step));
             }
         }
         (self.step, self.known) = (step, false);
     }
 
-    /// Energy release rate of a crack that enters the section at a place that is not cracked yet, J/m².
-    pub(super) fn release_rate(&self, at: Vec3, normal: Vec3) -> f64 {
-        if !self.is_fed || !self.plane.has(at, normal) {
-            return 0.0;
-        }
-        let square = self.squares.of(self.plane.place(at));
-        square.map_or(0.0, |k| {
-            let (all, cracked, column) = self.squares.list[k];
-            let is_open = all - cracked > LEFT * all;
-            if is_open {
-                self.columns[column as usize].rate
-            } else {
-                0.0
+    /// Resultants of a shape of the body.
+    fn of_shape(&self, asset: &Asset, shape: &Shape) -> Vec<f64> {
+        let mut sums = vec![0.0; self.resultants.len()];
+        for (&node, factors) in self
+            .nodes
+            .iter()
+            .zip(self.factors.chunks(self.columns.len()))
+        {
+            let u = Vec3::from_array(shape.at(asset, node as usize));
+            for (sum, factor) in sums.iter_mut().zip(factors.as_flattened()) {
+                *sum += f64::from(factor.dot(u));
             }
-        })
+        }
+        sums
     }
 
-    /// Finds the energy release rates of the columns. `modulus`: E/(1−ν²), Pa.
-    pub(super) fn update(&mut self, modulus: f64) {
-        if std::mem::replace(&mut self.known, true) {
-            return;
+    /// The column that feeds a crack which enters the section at a place that is not cracked yet, m, with this normal.
+    pub(super) fn feeding(&self, at: Vec3, normal: Vec3) -> Option<usize> {
+        if !self.is_fed || !self.plane.has(at, normal) {
+            return None;
         }
+        let (all, cracked, column) = self.squares.list[self.squares.of(self.plane.place(at))?];
+        (all - cracked > LEFT * all).then_some(column as usize)
+    }
+
+    /// Energy release rate of a crack in a column, J/m². `modulus`: E/(1−ν²), Pa.
+    pub(super) fn release_rate(&mut self, column: usize, modulus: f64) -> f64 {
+        if !std::mem::replace(&mut self.known, true) {
+            self.find_rates(modulus);
+        }
+        self.columns[column].rate
+    }
+
+    fn find_rates(&mut self, modulus: f64) {
         let n = 2 * self.columns.len();
         // M is positive where it opens a crack at the lower side; the other side's has the opposite sign.
         let cracks: Vec<(f64, f64)> = self.columns.iter().map(Column::crack).collect();
@@ -372,13 +403,18 @@ mod tests {
         let resultants = [tension * area, bending * area * height / 6.0];
         section.stiffness = vec![0.0; 36];
         section.resultants = resultants.repeat(3);
-        section.update(MODULUS);
         section
+    }
+
+    /// Energy release rate of a crack at a place, J/m²; zero where the section does not feed it.
+    fn rate_at(section: &mut Section, at: Vec3) -> f64 {
+        let column = section.feeding(at, Vec3::Z);
+        column.map_or(0.0, |column| section.release_rate(column, MODULUS))
     }
 
     fn rate(share: f32, tension: f64, bending: f64) -> f64 {
         let ahead = Vec3::new(0.5 * WIDTH, HEIGHT * (share + 0.03), 0.0);
-        section(share, tension, bending).release_rate(ahead, Vec3::Z)
+        rate_at(&mut section(share, tension, bending), ahead)
     }
 
     /// K²/E' of an edge crack, with its stress intensities in tension and bending added up.
@@ -396,11 +432,11 @@ mod tests {
     #[test]
     fn pressure_and_cut_places_are_not_fed() {
         assert_eq!(rate(0.3, 0.0, -1e6), 0.0);
-        let cut = section(0.3, 0.0, 1e6);
+        let mut cut = section(0.3, 0.0, 1e6);
         let behind = Vec3::new(0.5 * WIDTH, 0.1 * HEIGHT, 0.0);
-        assert_eq!(cut.release_rate(behind, Vec3::Z), 0.0);
+        assert_eq!(rate_at(&mut cut, behind), 0.0);
         let aside = Vec3::new(0.5 * WIDTH, 0.5 * HEIGHT, 0.02);
-        assert_eq!(cut.release_rate(aside, Vec3::Z), 0.0);
+        assert_eq!(rate_at(&mut cut, aside), 0.0);
     }
 
     /// A section that modes hold stiffly loses its force to the crack.
@@ -408,12 +444,11 @@ mod tests {
     fn stiff_modes_let_the_crack_relax_the_section() {
         let mut section = section(0.5, 0.0, 1e6);
         let ahead = Vec3::new(0.5 * WIDTH, 0.53 * HEIGHT, 0.0);
-        let free = section.release_rate(ahead, Vec3::Z);
+        let free = rate_at(&mut section, ahead);
         for k in 0..6 {
             section.stiffness[7 * k] = 1e9;
         }
         section.known = false;
-        section.update(MODULUS);
-        assert!(section.release_rate(ahead, Vec3::Z) < 0.2 * free);
+        assert!(rate_at(&mut section, ahead) < 0.2 * free);
     }
 }

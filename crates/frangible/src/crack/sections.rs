@@ -1,15 +1,14 @@
 //! Finds the sections in which large cracks lie.
 
-use std::collections::{BTreeMap, BTreeSet};
-
 use glam::{Mat3, Vec2, Vec3};
 
 use super::field::StressField;
 use super::section::{ALONG, Column, Plane, Section};
 use super::single::Front;
 use super::system::{CrackSystem, ELSEWHERE, UNCUT};
+use crate::asset::Asset;
 use crate::mesh::{FACES, NO_NEIGHBOUR};
-use crate::state::{crossing_area, crossing_middle};
+use crate::state::{crossing, nominal_crossing};
 use crate::tips::LARGE;
 
 /// A section is looked for again when its cracks have grown by this factor.
@@ -25,14 +24,28 @@ const NEAR_HEIGHT: f32 = 0.25;
 const COMPACT: f32 = 2.25;
 
 impl CrackSystem<'_> {
-    /// Energy per area that the section of a front's crack gives it where it cuts its tetrahedron, J/m²; zero where the crack has none.
-    pub(super) fn section_feed(&self, front: &Front, at: Vec3, normal: Vec3) -> f64 {
-        let section = self.cracks[front.crack as usize].section;
-        section.map_or(0.0, |k| self.sections[k as usize].release_rate(at, normal))
+    /// Energy per area that the section of a front's crack gives it where it cuts its tetrahedron at the present step, J/m²; zero where the crack
+    /// has none.
+    pub(super) fn section_feed(
+        &mut self,
+        front: &Front,
+        at: Vec3,
+        normal: Vec3,
+        field: &StressField,
+    ) -> f64 {
+        let Some(k) = self.cracks[front.crack as usize].section else {
+            return 0.0;
+        };
+        let section = &mut self.sections[k as usize];
+        let Some(column) = section.feeding(at, normal) else {
+            return 0.0;
+        };
+        section.set_step(self.asset, field.motion, field.step);
+        section.release_rate(column, self.asset.material.contact_modulus())
     }
 
-    /// Finds the section of a crack that has grown, and the energy release rates there at the present step.
-    pub(super) fn keep_section(&mut self, crack: u32, field: &mut StressField) {
+    /// Finds the section of a crack that has grown.
+    pub(super) fn keep_section(&mut self, crack: u32, field: &StressField) {
         if self.config.is_paper() {
             return;
         }
@@ -41,28 +54,22 @@ impl CrackSystem<'_> {
             Some(k) => self.find_anew(k, field),
             None => self.find_first(id, field),
         }
-        let Some(k) = self.cracks[id].section else {
-            return;
-        };
-        let section = &mut self.sections[k as usize];
-        if section.step != field.step {
-            section.set_step(field.step, |node| field.displacement_of(node));
-        }
-        section.update(self.asset.material.contact_modulus());
     }
 
     /// Finds a section again, if its cracks have grown.
     fn find_anew(&mut self, k: u32, field: &StressField) {
         let section = &self.sections[k as usize];
-        if section.cracked() <= GREW * section.found {
+        let (cracked, plane) = (section.cracked(), section.plane);
+        if cracked <= GREW * section.found {
             return;
         }
         let members: Vec<usize> = (0..self.cracks.len())
             .filter(|&id| self.cracks[id].section == Some(k))
             .collect();
-        match self.section(&members, Some(section.plane), field) {
+        members.iter().for_each(|&id| self.measure(id));
+        match self.section(&members, Some(plane), field) {
             Some(new) => self.sections[k as usize] = new,
-            None => self.sections[k as usize].found = section.cracked(),
+            None => self.sections[k as usize].found = cracked,
         }
         self.share_sections();
     }
@@ -80,6 +87,7 @@ impl CrackSystem<'_> {
         if !self.is_own(start) || field.wall(start as usize).is_some() {
             return;
         }
+        self.measure(id);
         let Some((origin, normal)) = self.mean_plane(&[id], None) else {
             return;
         };
@@ -135,22 +143,30 @@ impl CrackSystem<'_> {
         }
     }
 
-    /// Cuts of cracks, those along a plane if one is given: middles, m, normals and areas, m².
+    /// Finds the middle and the area of the cuts that a crack has gained.
+    fn measure(&mut self, id: usize) {
+        let crack = &mut self.cracks[id];
+        for cut in &crack.elements[crack.polygons.len()..] {
+            let x = self.asset.fracture.corners(cut.tet as usize);
+            let polygon = nominal_crossing(&x, &cut.values, cut.direction);
+            crack.polygons.push(polygon);
+        }
+    }
+
+    /// Cuts of cracks that are [measured](Self::measure), those along a plane if one is given: middles, m, normals and areas, m².
     fn cuts_along(
         &self,
         cracks: &[usize],
         along: Option<Plane>,
     ) -> impl Iterator<Item = (Vec3, Vec3, f32)> {
-        let mesh = &self.asset.fracture;
-        let cuts = cracks.iter().flat_map(|&id| self.cracks[id].unsettled());
-        cuts.filter_map(move |cut| {
-            let x = mesh.corners(cut.tet as usize);
-            let middle = crossing_middle(&x, &cut.values);
+        let cuts = cracks.iter().flat_map(|&id| {
+            let crack = &self.cracks[id];
+            let polygons = crack.polygons.iter().skip(crack.settled);
+            polygons.zip(crack.unsettled())
+        });
+        cuts.filter_map(move |(&(middle, area), cut)| {
             let runs = along.is_none_or(|plane| plane.has(middle, cut.direction));
-            runs.then(|| {
-                let area = self.area(&x, &cut.values, cut.direction);
-                (middle, cut.direction, area)
-            })
+            runs.then_some((middle, cut.direction, area))
         })
     }
 
@@ -261,10 +277,12 @@ impl CrackSystem<'_> {
             (x, x.map(|x| (x - origin).dot(normal)))
         };
         let crosses = |s: &[f32]| s.iter().any(|&s| s < 0.0) && s.iter().any(|&s| s >= 0.0);
-        let mut seen = BTreeSet::new();
+        let mut seen = vec![false; mesh.tets.len()];
         let mut queue: Vec<u32> = Vec::new();
         for cut in cracks.iter().flat_map(|&id| self.cracks[id].unsettled()) {
-            if self.is_own(cut.tet) && crosses(&values(cut.tet).1) && seen.insert(cut.tet) {
+            let seen = &mut seen[cut.tet as usize];
+            if !*seen && self.is_own(cut.tet) && crosses(&values(cut.tet).1) {
+                *seen = true;
                 queue.push(cut.tet);
             }
         }
@@ -281,14 +299,16 @@ impl CrackSystem<'_> {
         while let Some(&tet) = queue.get(next) {
             next += 1;
             let (x, s) = values(tet);
-            polygons.push((tet, crossing_middle(&x, &s), crossing_area(&x, &s)));
+            let (middle, area) = crossing(&x, &s);
+            polygons.push((tet, middle, area));
             for (face, &n) in FACES.iter().zip(&mesh.neighbours[tet as usize]) {
                 if n != NO_NEIGHBOUR
+                    && !seen[n as usize]
                     && crosses(&face.map(|i| s[i]))
                     && self.is_own(n)
                     && is_open(n)
-                    && seen.insert(n)
                 {
+                    seen[n as usize] = true;
                     queue.push(n);
                 }
             }
@@ -308,7 +328,9 @@ impl CrackSystem<'_> {
         // σ_nn = λ ∇·u + 2 μ n·(∇u) n
         let stress = Mat3::from_diagonal(Vec3::splat(lambda))
             + twice_mu * Mat3::from_cols(normal.x * normal, normal.y * normal, normal.z * normal);
-        let mut of_node = BTreeMap::<u32, Vec<[Vec3; 2]>>::new();
+        // Rows of the nodes in the order in which polygons ask for them.
+        let mut place_of = vec![u32::MAX; analysis.nodes.len()];
+        let (mut nodes, mut rows) = (Vec::<u32>::new(), Vec::<[Vec3; 2]>::new());
         for &(tet, at, area) in polygons {
             let place = section.plane.place(at);
             let Some(column) = section.column(place) else {
@@ -322,48 +344,74 @@ impl CrackSystem<'_> {
             let gradients = point.shape_gradients(barycentric);
             for (&node, g) in analysis.elements[element].iter().zip(gradients) {
                 let row = area * (stress * g);
-                let rows = of_node
-                    .entry(node)
-                    .or_insert_with(|| vec![[Vec3::ZERO; 2]; count]);
-                rows[column][0] += row;
-                rows[column][1] -= arm * row;
+                let place = &mut place_of[node as usize];
+                if *place == u32::MAX {
+                    *place = nodes.len() as u32;
+                    nodes.push(node);
+                    rows.resize(rows.len() + count, [Vec3::ZERO; 2]);
+                }
+                let rows = &mut rows[*place as usize * count + column];
+                rows[0] += row;
+                rows[1] -= arm * row;
             }
         }
-        section.nodes = of_node.keys().copied().collect();
-        section.factors = of_node.into_values().flatten().collect();
+        nodes.sort_unstable();
+        let rows_of = |node: u32| {
+            let first = place_of[node as usize] as usize * count;
+            &rows[first..first + count]
+        };
+        section.factors = nodes
+            .iter()
+            .flat_map(|&node| rows_of(node))
+            .copied()
+            .collect();
+        section.nodes = nodes;
     }
 
     /// Sets G Λ⁻¹ Gᵀ of the modes that are followed, as far as they are too slow to give way while a crack runs through the section.
     fn set_stiffness(&self, section: &mut Section, modes: usize) {
-        let count = section.columns().len();
-        let n = 2 * count;
-        let mut rows = vec![0.0_f32; modes * n];
-        for (&node, factors) in section.nodes.iter().zip(section.factors.chunks(count)) {
-            let [x, y, z] = self.asset.modes.rows(node as usize);
-            for (i, row) in rows.chunks_mut(n).enumerate() {
-                let shape = Vec3::new(x[i], y[i], z[i]);
-                for (out, f) in row.iter_mut().zip(factors.as_flattened()) {
-                    *out += f.dot(shape);
-                }
-            }
-        }
+        let n = 2 * section.columns().len();
+        let rows = products(self.asset, section, modes);
         let heights = section.columns().iter().map(Column::height);
         let duration = heights.fold(0.0, f64::max) / self.crack_speed();
         let mut matrix = vec![0.0; n * n];
-        for (row, &eigenvalue) in rows.chunks(n).zip(&self.asset.modes.eigenvalues) {
+        for (mode, &eigenvalue) in self.asset.modes.eigenvalues[..modes].iter().enumerate() {
             // A step of force that lasts for t moves a mode by 1 − cos ωt of its static response.
             let held = 1.0 / (1.0 + 0.5 * eigenvalue * duration * duration);
-            for (i, &a) in row.iter().enumerate() {
-                for (j, &b) in row.iter().enumerate() {
-                    matrix[i * n + j] += f64::from(a) * f64::from(b) * held / eigenvalue;
+            let of = |i: usize| f64::from(rows[i * modes + mode]);
+            for i in 0..n {
+                for j in 0..n {
+                    matrix[i * n + j] += of(i) * of(j) * held / eigenvalue;
                 }
             }
         }
-        section.stiffness = matrix;
+        (section.of_modes, section.stiffness) = (rows, matrix);
     }
 
     /// Speed of the cracks, m/s.
     fn crack_speed(&self) -> f64 {
         self.config.crack_speed().unwrap_or(1.0) * self.asset.material.rayleigh_speed()
+    }
+}
+
+widest! {
+    /// Resultants of a section in each mode of unit amplitude: `[resultant][mode]`.
+    fn products(asset: &Asset, section: &Section, modes: usize) -> Vec<f32> {
+        let n = 2 * section.columns().len();
+        let mut rows = vec![0.0_f32; n * modes];
+        for (&node, factors) in section.nodes.iter().zip(section.factors.chunks(n / 2)) {
+            let [x, y, z] = asset.modes.rows(node as usize);
+            let (x, y, z) = (&x[..modes], &y[..modes], &z[..modes]);
+            for (row, f) in rows.chunks_mut(modes).zip(factors.as_flattened()) {
+                // A node has factors in the columns about it.
+                if *f == Vec3::ZERO {
+                    continue;
+                }
+                for i in 0..modes {
+                    row[i] += f.x * x[i] + f.y * y[i] + f.z * z[i];
+                }
+            }
+        }
+        rows
     }
 }

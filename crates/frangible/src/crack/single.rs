@@ -40,6 +40,8 @@ pub(crate) struct Crack {
     pub(crate) forks: Vec<(Vec3, f64)>,
     /// The section of the body in which it lies, once it is large.
     pub(super) section: Option<u32>,
+    /// Middle, m, and area, m², of its cuts, from the first, as far as a section has asked for them.
+    pub(super) polygons: Vec<(Vec3, f32)>,
     /// Area up to which no section is looked for, m².
     pub(super) unsought: f64,
     /// Tip that feeds its front, if it was there before this impact.
@@ -66,6 +68,7 @@ impl Crack {
             junctions: Vec::new(),
             forks: Vec::new(),
             section: None,
+            polygons: Vec::new(),
             unsought: 0.0,
             tip: None,
             restored: 0,
@@ -155,6 +158,8 @@ pub(crate) struct Front {
     pub(crate) source: Source,
     /// Area that it would have cut when the stress last did not pay for it, m²; zero where it was not asked.
     pub(crate) refused: f32,
+    /// Index into [`CrackSystem::waiting`](super::system::CrackSystem::waiting), if it has ever waited.
+    pub(crate) waiting: Option<u32>,
 }
 
 impl Eq for Front {}

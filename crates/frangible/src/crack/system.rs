@@ -14,6 +14,7 @@ use super::section::Section;
 use super::single::{Crack, ElementCut, Front, Junction};
 use super::sites::Site;
 use super::surface::CrackFrame;
+use super::waiting::Waiting;
 use crate::asset::Asset;
 use crate::body::Body;
 use crate::config::FractureConfig;
@@ -52,6 +53,8 @@ pub(crate) struct CrackSystem<'a> {
     pub(crate) fronts: BinaryHeap<Front>,
     /// Fronts that lacked energy; tried again at the next step.
     pub(crate) stalled: Vec<Front>,
+    /// Data of the fronts that have ever waited, by [`Front::waiting`].
+    pub(super) waiting: Vec<Waiting>,
     /// Fronts of the cracks from earlier impacts, asleep until the stress can move them.
     pub(crate) dormant: Vec<Front>,
     /// Stress below which none of them moves, Pa.
@@ -113,6 +116,7 @@ impl<'a> CrackSystem<'a> {
             thickness: &body.prepared.thickness,
             fronts: BinaryHeap::new(),
             stalled: Vec::new(),
+            waiting: Vec::new(),
             releases: Releases::default(),
             unpaid: Unpaid::default(),
             rest: Rest::default(),
@@ -166,6 +170,7 @@ impl<'a> CrackSystem<'a> {
                 from: from as u32,
                 lacks: 0.0,
                 refused: 0.0,
+                waiting: None,
             }));
         }
         let crack = &mut self.cracks[id as usize];
@@ -337,6 +342,7 @@ impl<'a> CrackSystem<'a> {
                 from,
                 lacks: 0.0,
                 refused: 0.0,
+                waiting: None,
             });
         }
     }

@@ -39,19 +39,6 @@ impl Moment {
         sum
     }
 
-    /// Displacement of an analysis node at a time step, m.
-    pub(crate) fn displacement(
-        &mut self,
-        asset: &Asset,
-        motion: &Motion,
-        node: usize,
-        step: usize,
-    ) -> Vec3 {
-        self.begin(asset);
-        self.compute(asset, motion, node, step);
-        self.nodes[node].0
-    }
-
     fn begin(&mut self, asset: &Asset) {
         if self.nodes.is_empty() {
             self.nodes

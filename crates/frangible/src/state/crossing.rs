@@ -41,23 +41,37 @@ pub(crate) fn crossing_polygon(x: &[Vec3; 4], s: &[f32; 4]) -> ([Vec3; 4], usize
 
 /// Middle of the corners of the crack's polygon in a tetrahedron, m.
 pub(crate) fn crossing_middle(x: &[Vec3; 4], s: &[f32; 4]) -> Vec3 {
-    let (polygon, corners) = crossing_polygon(x, s);
-    polygon[..corners].iter().sum::<Vec3>() / corners.max(1) as f32
+    middle(crossing_polygon(x, s))
 }
 
 /// Area of the crack inside a tetrahedron, m² `[G12 Eq. 11]`.
 pub(crate) fn crossing_area(x: &[Vec3; 4], s: &[f32; 4]) -> f32 {
-    area(x, s, Vec3::length)
+    area(crossing_polygon(x, s), Vec3::length)
 }
 
 /// Area of the crack inside a tetrahedron without its roughness, m²: projected on a plane of this unit normal.
 pub(crate) fn nominal_area(x: &[Vec3; 4], s: &[f32; 4], normal: Vec3) -> f32 {
-    area(x, s, |a| a.dot(normal).abs())
+    area(crossing_polygon(x, s), |a| a.dot(normal).abs())
 }
 
-/// Sum of a measure of the crack's triangles in a tetrahedron, given their vector areas, m².
-fn area(x: &[Vec3; 4], s: &[f32; 4], measure: impl Fn(Vec3) -> f32) -> f32 {
-    let (p, corners) = crossing_polygon(x, s);
+/// [`crossing_middle`] and [`crossing_area`].
+pub(crate) fn crossing(x: &[Vec3; 4], s: &[f32; 4]) -> (Vec3, f32) {
+    let polygon = crossing_polygon(x, s);
+    (middle(polygon), area(polygon, Vec3::length))
+}
+
+/// [`crossing_middle`] and [`nominal_area`].
+pub(crate) fn nominal_crossing(x: &[Vec3; 4], s: &[f32; 4], normal: Vec3) -> (Vec3, f32) {
+    let polygon = crossing_polygon(x, s);
+    (middle(polygon), area(polygon, |a| a.dot(normal).abs()))
+}
+
+fn middle((polygon, corners): ([Vec3; 4], usize)) -> Vec3 {
+    polygon[..corners].iter().sum::<Vec3>() / corners.max(1) as f32
+}
+
+/// Sum of a measure of the polygon's triangles, given their vector areas, m².
+fn area((p, corners): ([Vec3; 4], usize), measure: impl Fn(Vec3) -> f32) -> f32 {
     let triangle = |a: Vec3, b: Vec3, c: Vec3| 0.5 * measure((b - a).cross(c - a));
     match corners {
         3 => triangle(p[0], p[1], p[2]),

@@ -11,7 +11,9 @@ use glam::Vec3;
 use crate::error::InputError;
 use crate::mesh::TetMesh;
 
-pub(crate) use crossing::{crossing_area, crossing_middle, crossing_polygon, nominal_area};
+pub(crate) use crossing::{
+    crossing, crossing_area, crossing_middle, crossing_polygon, nominal_area, nominal_crossing,
+};
 pub(crate) use cuts::{Cuts, EdgeCut};
 
 /// Cracks of a body that is still one piece.

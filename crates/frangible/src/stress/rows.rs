@@ -247,11 +247,8 @@ pub(crate) fn of_shape(
                 gradient.z_axis += u * g.z;
             }
             let strain = Symmetric3::from_mat3(gradient);
-            let stress = match law {
-                Law::Solid => elasticity.hooke(&strain),
-                Law::Free(n) => elasticity.free_hooke(&strain, n),
-                Law::Edge(t) => elasticity.edge_hooke(&strain, t),
-            };
+            let stress = elasticity.linear(&strain.components(), law);
+            let stress = Symmetric3::from_components(stress);
             for (sum, number) in sums.iter_mut().zip(frame.numbers(&stress)) {
                 *sum += number * share;
             }

@@ -156,23 +156,17 @@ impl Elasticity {
         lanes.energy_density = self.energy_of(&wide(&lanes.components)).0;
     }
 
+    /// Stress of a strain by one of the laws, linear in it.
+    #[inline(always)]
+    pub(crate) fn linear<T: Real>(&self, strain: &[T; 6], law: Law) -> [T; 6] {
+        match law {
+            Law::Solid => self.hooke_of(strain),
+            Law::Free(n) => self.plane_stress(&tangential(strain, n), n),
+            Law::Edge(t) => uniaxial(stretch(strain, t) * self.youngs_modulus, t),
+        }
+    }
+
     /// σ = λ tr(E) I + 2 μ E.
-    pub(crate) fn hooke(&self, strain: &Symmetric3) -> Symmetric3 {
-        Symmetric3::from_components(self.hooke_of(&strain.components()))
-    }
-
-    /// Stress beside a free surface of unit normal `n`, linear in the strain.
-    pub(crate) fn free_hooke(&self, strain: &Symmetric3, n: Vec3) -> Symmetric3 {
-        let in_surface = tangential(&strain.components(), n);
-        Symmetric3::from_components(self.plane_stress(&in_surface, n))
-    }
-
-    /// Stress at an edge along unit `t`, linear in the strain: E (t·E t) t tᵀ.
-    pub(crate) fn edge_hooke(&self, strain: &Symmetric3, t: Vec3) -> Symmetric3 {
-        let along = stretch(&strain.components(), t);
-        Symmetric3::from_components(uniaxial(along * self.youngs_modulus, t))
-    }
-
     #[inline(always)]
     fn hooke_of<T: Real>(&self, strain: &[T; 6]) -> [T; 6] {
         let trace = (strain[0] + strain[1] + strain[2]) * self.lambda;
@@ -287,13 +281,14 @@ mod tests {
     #[test]
     fn what_acts_across_a_free_surface_does_not_show_beside_it() {
         let law = Elasticity::new(&glass());
+        let beside = |g: Mat3, n: Vec3| {
+            let strain = Symmetric3::from_mat3(g).components();
+            Symmetric3::from_components(law.linear(&strain, Law::Free(n)))
+        };
         for g in gradients() {
             for n in directions() {
                 let noise = Mat3::from_cols(n * n.x, n * n.y, n * n.z) * 3e-5;
-                let (a, b) = (
-                    law.free_hooke(&Symmetric3::from_mat3(g), n),
-                    law.free_hooke(&Symmetric3::from_mat3(g + noise), n),
-                );
+                let (a, b) = (beside(g, n), beside(g + noise, n));
                 assert!((0..3).all(|i| (a.diagonal[i] - b.diagonal[i]).abs() < 50.0));
                 assert!((0..3).all(|i| (a.off[i] - b.off[i]).abs() < 50.0));
             }
