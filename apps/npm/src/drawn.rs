@@ -50,7 +50,11 @@ impl Drawn {
         let Some(surface) = &asset.render() else {
             let positions = asset.surface_positions();
             let mut sheet = Sheet::new(positions.len(), Vec3::ZERO);
-            let corners = asset.surface().triangles.iter().zip(&asset.surface().normals);
+            let corners = asset
+                .surface()
+                .triangles
+                .iter()
+                .zip(&asset.surface().normals);
             for (triangle, normals) in corners {
                 sheet.add(positions, *triangle, *normals, None);
             }

@@ -55,7 +55,9 @@ pub(crate) fn bake<'py>(
     };
     // A file also has the looks of its surface, which pieces keep.
     let mesh = match &path {
-        Some(path) => py.detach(|| frangible_mesh::read_mesh(path)).map_err(refused)?,
+        Some(path) => py
+            .detach(|| frangible_mesh::read_mesh(path))
+            .map_err(refused)?,
         None => given,
     };
     let parts = match (parts, gap) {

@@ -3,11 +3,11 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use frangible::glam::DVec3;
 use frangible::internals::stress::largest_eigenvalue;
 use frangible::internals::{Factors, Fatigue, Fields, ShownStress, Stage, Vibration};
 use frangible::{Asset, Body, Breakable, Contact, FractureConfig, Material, impact, would_break};
 use frangible_bake::mode_field::mode_on_fracture_mesh;
-use frangible::glam::DVec3;
 use frangible_js::drawn::{Drawn, authored};
 use frangible_js::plain;
 use numpy::{PyArray1, PyReadonlyArray1};
@@ -143,7 +143,9 @@ impl Kind {
 
     /// Arrays of the mesh to draw.
     fn drawn<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let asset = self.whole("is drawn by the outcome that it comes from")?.asset();
+        let asset = self
+            .whole("is drawn by the outcome that it comes from")?
+            .asset();
         arrays(py, &py.detach(|| Drawn::whole(asset)), DVec3::ZERO)
     }
 

@@ -105,7 +105,9 @@ impl Impact {
     fn drawn<'py>(&self, py: Python<'py>, number: usize) -> PyResult<Bound<'py, PyDict>> {
         let fragments = &self.fracture.fragments;
         let count = fragments.len();
-        let fragment = fragments.get(number).ok_or_else(|| missing(number, count))?;
+        let fragment = fragments
+            .get(number)
+            .ok_or_else(|| missing(number, count))?;
         let drawn = py.detach(|| Drawn::fragment(self.body.asset(), fragment));
         arrays(py, &drawn, fragment.mass.centre)
     }
