@@ -5,8 +5,8 @@ use frangible::internals::outcome::ContactReport;
 use frangible::internals::rigid::{
     Kick, Rigid, fly_through, nearest_first, take_blow, take_energy, take_held,
 };
-use frangible::internals::{Fields, MassProperties};
-use frangible::{Asset, Breakable, Contact, Fracture, ImpactReport, InputError, Striker};
+use frangible::internals::MassProperties;
+use frangible::{Asset, Contact, Fracture, ImpactReport, Striker};
 
 /// Numbers of a contact: point, direction of the push (m, body frame), speed of approach (m/s), one over the striker's mass at the contact
 /// (1/kg), its radius of curvature (m), plane-strain modulus (Pa), crushing pressure (Pa), coefficient of restitution; then of a scripted push
