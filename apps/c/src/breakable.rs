@@ -33,7 +33,7 @@ pub(crate) static BREAKABLES: Registry<Kind> = Registry::new("a breakable");
 impl Kind {
     fn new(breakable: Breakable) -> Self {
         let asset = breakable.asset();
-        let (name, material) = (c_text(&asset.name()), c_text(&asset.material().name));
+        let (name, material) = (c_text(asset.name()), c_text(&asset.material().name));
         Self {
             name,
             material,

@@ -1,11 +1,11 @@
 //! Contacts and motions as rows of numbers.
 
 use frangible::glam::{DMat3, DQuat, DVec3, Vec3};
+use frangible::internals::MassProperties;
 use frangible::internals::outcome::ContactReport;
 use frangible::internals::rigid::{
     Kick, Rigid, fly_through, nearest_first, take_blow, take_energy, take_held,
 };
-use frangible::internals::MassProperties;
 use frangible::{Asset, Contact, Fracture, ImpactReport, Striker};
 
 /// Numbers of a contact: point, direction of the push (m, body frame), speed of approach (m/s), one over the striker's mass at the contact
