@@ -114,10 +114,11 @@ fn name_of(link: &str) -> &str {
 
 /// Names of the members that count.
 fn members(page: &str, item: &str) -> Vec<String> {
-    let of_sibling = values(page, "href=\"../src/")
+    // A type of a sibling crate has a link to its source only if that crate was documented first.
+    let is_own = values(page, "href=\"../src/")
         .next()
-        .is_some_and(|source| !source.starts_with("frangible/"));
-    if of_sibling || item.ends_with("Error") {
+        .is_some_and(|source| source.starts_with("frangible/"));
+    if !is_own || item.ends_with("Error") {
         return Vec::new();
     }
     let all = MEMBERS.iter().flat_map(|mark| values(page, mark));
@@ -159,6 +160,8 @@ mod tests {
         assert_eq!(members(page, "Body"), ["Body::mass", "Body::new"]);
         let sibling = page.replace("src/frangible/", "src/frangible_material/");
         assert!(members(&sibling, "Material").is_empty());
+        let without_link = page.replace("../src/frangible/", "");
+        assert!(members(&without_link, "Material").is_empty());
         assert!(members(page, "InputError").is_empty());
     }
 
