@@ -245,14 +245,18 @@ def test_scatter_that_cannot_be_used_is_named(bar: fr.Body, given: dict, words: 
 
 def test_a_deeper_groove_is_weaker_and_replaces_factors(bar: fr.Body) -> None:
     middle = np.abs(bar.vertices[:, 0]) < 0.01
+    # Light enough that nothing cracks: cracks change the motion, and with it the largest stress.
+    push = pushed(0.001)
 
     def margin(depth: float, **factors: float) -> float:
-        return bar.weakened(groove=np.where(middle, depth, 0.0), **factors).margin(pushed(0.05), 1)
+        return bar.weakened(groove=np.where(middle, depth, 0.0), **factors).margin(push, 1)
 
-    plain, shallow, deep = bar.margin(pushed(0.05), 1), margin(2e-3), margin(8e-3)
-    # A flaw of 2 mm lies below the strength of porcelain; its strength falls with the root of the depth, and with the remaining height.
-    assert deep < 0.7 * shallow < 0.7 * plain
+    plain, shallow, deep = bar.margin(push, 1), margin(2e-3), margin(8e-3)
+    # A flaw of 2 mm is far weaker than porcelain. Its strength falls with the root of the depth, and with the remaining height; along the edges, where
+    # the bar is thin, both depths leave little.
+    assert deep < 0.85 * shallow < 0.05 * plain
+    assert deep > 1
     again = bar.weakened(strength=3.0).weakened(groove=np.full(len(bar.vertices), 8e-3))
-    assert again.margin(pushed(0.05), 1) <= deep * 1.001
+    assert again.margin(push, 1) <= deep * 1.001
     with pytest.raises(ValueError, match="groove is -1"):
         bar.weakened(groove=-1.0)
