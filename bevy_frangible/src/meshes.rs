@@ -34,16 +34,20 @@ pub(crate) struct Faces {
 
 /// The surface that the author of a body drew, if there is one.
 pub(crate) fn authored(baked: &Baked) -> Option<&RenderSurface> {
-    baked.root().render.as_ref()
+    baked.root().render()
 }
 
 /// The outer surface of a whole body, as its author drew it if it has one.
 pub(crate) fn whole(baked: &Baked) -> Mesh {
-    match &baked.render {
+    match baked.render() {
         Some(surface) => drawn(&as_drawn(surface), 0..surface.triangles.len(), surface),
         None => {
             let positions = baked.surface_positions();
-            let corners = baked.surface.triangles.iter().zip(&baked.surface.normals);
+            let corners = baked
+                .surface()
+                .triangles
+                .iter()
+                .zip(&baked.surface().normals);
             mesh(corners.map(|(t, n)| (t.map(|v| positions[v as usize]), *n)))
         }
     }
@@ -52,7 +56,7 @@ pub(crate) fn whole(baked: &Baked) -> Mesh {
 /// The outer surface of a whole body, a mesh for each material of its file; empty if the file has fewer than two.
 pub(crate) fn whole_by_material(baked: &Baked) -> Vec<Part> {
     let several = |surface: &&RenderSurface| surface.materials.len() > 1;
-    let surface = baked.render.as_ref().filter(several);
+    let surface = baked.render().filter(several);
     surface.map_or_else(Vec::new, |surface| outer(&as_drawn(surface), surface))
 }
 

@@ -48,7 +48,7 @@ const LEAST_EXTENT: f32 = 4e-4;
 
 /// The collider of a whole body.
 pub(super) fn whole(baked: &Baked, (parts, points): (usize, usize)) -> Collider {
-    let cells = baked.cells.iter().map(|cell| &cell.points[..]).collect();
+    let cells = baked.cells().iter().map(|cell| &cell.points[..]).collect();
     let solid = baked.surface_positions();
     compound(cells, parts, points, within(solid)).unwrap_or_else(|| bounding_box(solid))
 }
