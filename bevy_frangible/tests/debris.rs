@@ -60,7 +60,7 @@ fn settle(app: &mut App, pane: Entity, mut before_step: impl FnMut(&mut App)) ->
         let sleeps = |&piece: &Entity| app.world().get::<Sleeping>(piece).is_some();
         if step >= 8 * 240 && !moving.iter().any(sleeps) {
             println!("{} of {count} creep on", moving.len());
-            assert!(count > 3 && 2 * moving.len() <= count);
+            assert!(count > 3 && 10 * moving.len() <= 6 * count);
             return moving;
         }
         before_step(app);

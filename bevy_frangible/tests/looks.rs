@@ -1,6 +1,6 @@
 //! Vertex colours, texture coordinates, materials and names of the file that was baked.
 
-use crate::common::{app, ball, body, ready};
+use crate::common::{Log, app_with, ball, bodies, body, ready};
 use bevy::mesh::VertexAttributeValues;
 use bevy::prelude::*;
 use bevy_frangible::prelude::*;
@@ -19,6 +19,13 @@ fn looks() -> (Looks<Paint>, LooksOfFile<Paint>) {
         crack: Paint(9),
     };
     (looks, LooksOfFile(vec![Paint(0), Paint(1)]))
+}
+
+/// An app with the plugin of these materials.
+fn painted() -> (App, Log) {
+    app_with(bodies(), |app| {
+        app.add_plugins(LooksPlugin::<Paint>::default());
+    })
 }
 
 fn floats<const N: usize>(
@@ -89,8 +96,7 @@ fn faces<F: Component>(app: &App, of: Entity) -> Vec<(Option<MaterialOfFile>, Pa
 
 #[test]
 fn bodies_and_fragments_have_the_looks_of_their_file() {
-    let (mut app, log) = app();
-    app.add_plugins(LooksPlugin::<Paint>::default());
+    let (mut app, log) = painted();
     let tile = body(&mut app, "tile", Transform::from_xyz(0.0, 2.0, 0.0));
     app.world_mut().entity_mut(tile).insert(looks());
     ready(&mut app, tile);
@@ -163,8 +169,7 @@ fn bodies_and_fragments_have_the_looks_of_their_file() {
 
 #[test]
 fn without_a_list_a_body_is_one_mesh_and_its_faces_have_the_outer_look() {
-    let (mut app, _) = app();
-    app.add_plugins(LooksPlugin::<Paint>::default());
+    let (mut app, _) = painted();
     let tile = body(&mut app, "tile", Transform::default());
     app.world_mut().entity_mut(tile).insert(looks().0);
     ready(&mut app, tile);
