@@ -4,8 +4,7 @@ use bevy::asset::io::Reader;
 use bevy::asset::{AssetLoader, LoadContext};
 use bevy::prelude::*;
 use frangible::internals::asset::{Image, RenderMaterial};
-use frangible::internals::{AssetFileError, Fields};
-use frangible::{Asset as Baked, Breakable as Kind, InputError};
+use frangible::{Asset as Baked, AssetFileError, Breakable as Kind, InputError};
 use thiserror::Error;
 
 use crate::meshes::authored;
