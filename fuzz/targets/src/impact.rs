@@ -247,7 +247,7 @@ pub fn impact(data: &[u8]) {
     run(data, kinds());
 }
 
-/// The same with smaller bodies, for many inputs.
+/// Runs [`impact`] with bodies of some 200 tetrahedra, for many inputs.
 pub fn impact_small(data: &[u8]) {
     run(data, small_kinds());
 }

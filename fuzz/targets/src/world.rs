@@ -296,7 +296,7 @@ pub fn world(data: &[u8]) {
     run(data, kinds());
 }
 
-/// The same with smaller bodies, for many inputs.
+/// Runs [`world`] with bodies of some 200 tetrahedra, for many inputs.
 pub fn world_small(data: &[u8]) {
     run(data, small_kinds());
 }

@@ -1,4 +1,4 @@
-//! What strikes a body.
+//! Strikers: their stiffness, shape and mass at a contact.
 
 use std::sync::Arc;
 
@@ -175,7 +175,7 @@ impl Striker {
         }
     }
 
-    /// The same striker with this effective mass at the contact, kg: of a ball its mass, of a body that turns when it is struck less.
+    /// Sets the effective mass at the contact, kg: the mass of a ball, less for a body that turns when it is struck.
     #[must_use]
     pub fn with_effective_mass(self, mass: f64) -> Self {
         Self {
@@ -184,7 +184,7 @@ impl Striker {
         }
     }
 
-    /// The same striker with this radius of curvature at the contact, m.
+    /// Sets the radius of curvature at the contact, m.
     #[must_use]
     pub fn with_curvature_radius(self, radius: f64) -> Self {
         Self {
@@ -193,7 +193,7 @@ impl Striker {
         }
     }
 
-    /// The same striker with this coefficient of restitution of the pair, 0..=1.
+    /// Sets the coefficient of restitution of the pair, 0..=1.
     #[must_use]
     pub fn with_restitution(self, restitution: f64) -> Self {
         Self {
@@ -202,7 +202,7 @@ impl Striker {
         }
     }
 
-    /// The same striker with this plane-strain modulus E/(1−ν²), Pa.
+    /// Sets the plane-strain modulus E/(1−ν²), Pa.
     #[doc(hidden)]
     #[must_use]
     pub fn with_contact_modulus(self, modulus: f64) -> Self {

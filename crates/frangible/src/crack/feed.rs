@@ -78,7 +78,7 @@ impl CrackSystem<'_> {
         felt: &Felt,
         (normal, at, area): (Vec3, Vec3, f32),
         enough: f64,
-        field: &mut StressField,
+        field: &StressField,
     ) -> f64 {
         let material = &self.asset.material;
         if self.config.is_paper() {

@@ -40,6 +40,7 @@ mod sections;
 mod shown;
 mod single;
 mod sites;
+mod squares;
 mod strip;
 mod surface;
 mod suspects;

@@ -281,7 +281,7 @@ enum Payment {
 /// The energy test of a front `[G12 Algorithm 2]`: `E_f + A_n G_c < E_s + A_n γ η_n`.
 fn pays(
     system: &mut CrackSystem,
-    field: &mut StressField,
+    field: &StressField,
     felt: &Felt,
     front: &Front,
     cut: &ElementCut,

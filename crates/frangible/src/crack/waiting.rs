@@ -61,8 +61,7 @@ impl CrackSystem<'_> {
             (waiting.batch, waiting.bounds) = (Some(batch), bounds);
         }
         let (place, most) = (waiting.place, waiting.bounds[lane(field.step)].max(0.0));
-        let in_wall = field.wall(front.tet as usize).is_some();
-        !self.may_pay_at(front, (ROUNDING * most, in_wall), place, field)
+        !self.may_pay_at(front, ROUNDING * most, place, field)
     }
 
     /// Returns true if the stress does not pay for a refused front in any direction that the crack may turn to. The area is that of the refusal.
@@ -71,23 +70,17 @@ impl CrackSystem<'_> {
         front: &Front,
         felt: &Felt,
         at: Vec3,
-        field: &mut StressField,
+        field: &StressField,
     ) -> bool {
         if front.refused <= 0.0 || self.config.is_paper() {
             return false;
         }
-        let most = (felt.largest_tension(), felt.wall.is_some());
-        !self.may_pay_at(front, most, at, field)
+        !self.may_pay_at(front, felt.largest_tension(), at, field)
     }
 
-    /// Returns true if this tension, Pa, or the section of the crack pays for a refused front at a place, m. `in_wall`: true if it is in a wall.
-    fn may_pay_at(
-        &mut self,
-        front: &Front,
-        (tension, in_wall): (f32, bool),
-        at: Vec3,
-        field: &mut StressField,
-    ) -> bool {
+    /// Returns true if this tension, Pa, or the section of the crack pays for a refused front at a place, m.
+    fn may_pay_at(&mut self, front: &Front, tension: f32, at: Vec3, field: &StressField) -> bool {
+        let in_wall = field.wall(front.tet as usize).is_some();
         let crack = &self.cracks[front.crack as usize];
         let normal = crack.elements[front.from as usize].direction;
         let needs = crack.spent + self.cost(front.tet, front.refused) - crack.available;
