@@ -91,6 +91,8 @@ struct Grown {
     before: f64,
     /// The cracks' progress when it was last asked, and the pieces.
     pieces: Option<([usize; 2], Labels)>,
+    /// Nodes under the contacts when groups were last looked for.
+    pushed: Vec<u32>,
 }
 
 impl Grown {
@@ -267,10 +269,12 @@ impl<'a> Cracking<'a> {
                     fragment::label(system, index, self.config.crumb_share, before)
                 }
             };
-            if labels.count > 1 {
+            let pushed = blow.nodes(self.body, step);
+            if labels.count > 1 && (labels.has_parted || pushed != grown.pushed) {
                 let of_node = &labels.of_node;
                 let acts;
-                (groups, acts) = blow.groups(self.body, (of_node, labels.count), step);
+                (groups, acts) = blow.groups(self.body, (of_node, labels.count), &pushed);
+                grown.pushed = pushed;
                 let free = Volumes::of(&labels, index).free(&acts);
                 let now = blow.motion().begin(step, self.time_step);
                 let speed = self.body.asset.material.rayleigh_speed();

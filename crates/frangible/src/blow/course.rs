@@ -171,7 +171,7 @@ impl Blow {
     /// Parts pieces at a time step, as cracks do. `piece_of_node`: piece of each node of the fracture mesh, the largest first.
     #[doc(hidden)]
     pub fn part(&mut self, body: &Body, piece_of_node: &[u32], pieces: usize, step: usize) {
-        let (groups, _) = self.groups(body, (piece_of_node, pieces), step);
+        let (groups, _) = self.groups(body, (piece_of_node, pieces), &self.nodes(body, step));
         self.go_on(body, step, &[], groups);
         self.integrate(usize::MAX);
     }
@@ -213,21 +213,21 @@ impl Blow {
         (self.progress.after).is_none_or(|after| step < after.contact_steps)
     }
 
-    /// Groups of nodes that move on their own once these pieces have parted at a time step, none if no new group has formed. Also, for each piece,
-    /// false if it has parted but moves with its parent group.
+    /// Groups of nodes that move on their own once these pieces have parted, none if no new group has formed. Also, for each piece,
+    /// false if it has parted but moves with its parent group. `pushed`: the [nodes](Self::nodes) under contacts.
     pub(crate) fn groups(
         &self,
         body: &Body,
         pieces: (&[u32], usize),
-        step: usize,
+        pushed: &[u32],
     ) -> (Option<Groups>, Vec<bool>) {
         let before = self.parted.last().map(|parted| &parted.groups);
         let index = &body.prepared.index;
-        Groups::next(before, &body.asset, index, pieces, &self.nodes(body, step))
+        Groups::next(before, &body.asset, index, pieces, pushed)
     }
 
     /// Node under each contact at a time step.
-    fn nodes(&self, body: &Body, step: usize) -> Vec<u32> {
+    pub(crate) fn nodes(&self, body: &Body, step: usize) -> Vec<u32> {
         let mut nodes = self.nodes.clone();
         if let Some(parted) = self.parted.last() {
             let until = step * self.plan.substeps;

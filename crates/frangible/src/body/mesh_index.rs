@@ -71,13 +71,6 @@ impl MeshIndex {
         self.neighbours.of(node)
     }
 
-    /// Edges from a node to higher ones, rising: the other node, and the number of the edge.
-    #[inline]
-    pub(crate) fn edges_from(&self, low: u32) -> impl Iterator<Item = (u32, u32)> {
-        let nodes = higher(&self.neighbours, low).iter().copied();
-        nodes.zip(self.edges.first(low)..)
-    }
-
     /// Number of the edge between two nodes, the lower one first; none where no edge joins them.
     pub(crate) fn edge(&self, low: u32, high: u32) -> Option<u32> {
         let place = higher(&self.neighbours, low).binary_search(&high).ok()?;

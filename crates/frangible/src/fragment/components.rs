@@ -1,12 +1,12 @@
-//! Connected components of the nodes over uncut edges `[G12 §6.1-6.2]`, at the cost of the smaller sides.
+//! Connected components of the nodes over uncut edges `[G12 §6.1-6.2]`, kept from look to look.
 //!
-//! Every component has a node beside a cut (or is a part of the mesh that was never joined to the rest). So the search
-//! starts there, from all sides of the cuts at once, the side that has seen least going on. Sides that meet are one;
-//! a side that has nowhere to go is a component. When one side is left, it has all that nobody has seen: it is
-//! not searched further, and its volume is what the others leave of the whole. A patch of nodes that no cut touches hangs together, so a side
-//! takes all of it at once and goes on from the nodes around it.
+//! Cuts only part. So a look asks of each new cut whether its ends still hang together: the ends of the new cuts and the nodes around them form
+//! *sides*, which are joined wherever an uncut edge joins them, and mostly one side is left, since the two sides of a growing crack hang together
+//! around its rim. Where several sides are left of a component, each goes on to the nodes beyond, the side that has looked at least first. Sides that
+//! meet are one; a side that has nowhere to go has parted and becomes a component. The last side keeps the component, and is not searched further, so that
+//! a parting costs as much as the smaller sides. A patch of nodes that no cut touches hangs together, so a side takes all of it at once.
 //!
-//! Volumes of nodes are whole numbers, so the volume of the rest is exact.
+//! Volumes of nodes are whole numbers, so the volume of what is left is exact.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -16,10 +16,10 @@ use crate::body::MeshIndex;
 use crate::mesh::DisjointSets;
 use crate::state::{Cuts, EdgeCut};
 
-/// Nodes that a side looks at before it is asked again whether it has seen least.
+/// Nodes that a side looks at before it is asked again whether it has looked at least.
 const TURN: u32 = 32;
 
-/// Mark in place of a side: a node beside a cut that belongs to another piece.
+/// Mark in place of a component: a node of another piece.
 const OUTSIDE: u32 = u32::MAX;
 
 /// Flag in a list of nodes to look at: the other bits are the number of a patch.
@@ -35,47 +35,106 @@ pub(super) struct Component {
 }
 
 /// The components, and the nodes of each.
-pub(super) struct Components {
-    /// The components, ordered by their lowest node.
-    pub(super) list: Vec<Component>,
-    /// Component of all nodes that were not seen.
-    pub(super) rest: u32,
-    /// Nodes that were seen.
-    seen: Vec<u32>,
-    /// Side plus one that saw each node, 0 for none.
+#[derive(Debug, Default)]
+pub(crate) struct Components {
+    /// The components, in the order in which they have parted.
+    list: Vec<Component>,
+    /// Place of each component by its lowest node.
+    rank: Vec<u32>,
+    /// Component of each node, or [`OUTSIDE`].
+    of_node: Vec<u32>,
+    /// True for patches with a node beside a cut: their nodes are looked at one by one.
+    is_touched: Vec<bool>,
+    /// Number of cuts that were looked at.
+    looked_at: usize,
+    /// Number of nodes beside cuts that were looked at.
+    touched: usize,
+    /// Side plus one that saw each node in a look, 0 for none; all 0 between looks.
     side_of_node: Vec<u32>,
-    /// Component of each side.
-    of_side: Vec<u32>,
+    /// Nodes that were seen in the last look.
+    seen: Vec<u32>,
 }
 
 impl Components {
-    /// The components of the whole body, or of a portion of it, which cuts part from the rest.
-    /// `cut_by`: [the crack that has cut each edge](MeshIndex::cut_by).
-    pub(super) fn of(
+    /// One component of all nodes of the body, or of a portion of it, which settled cuts part from the rest.
+    fn whole(index: &MeshIndex, portion: Option<&Portion>) -> Self {
+        let nodes = index.nodes();
+        let mut of_node = vec![0; nodes];
+        if let Some(portion) = portion {
+            of_node.fill(OUTSIDE);
+            for &v in portion.nodes() {
+                of_node[v as usize] = 0;
+            }
+        }
+        let lowest = portion.and_then(|portion| portion.nodes().first()).copied();
+        let lowest = lowest.unwrap_or(0);
+        let volume = portion.map_or(index.whole, |portion| portion.whole());
+        Self {
+            list: vec![Component { lowest, volume }],
+            rank: vec![0],
+            of_node,
+            is_touched: vec![false; index.patches.count()],
+            looked_at: 0,
+            touched: 0,
+            side_of_node: vec![0; nodes],
+            seen: Vec::new(),
+        }
+    }
+
+    /// Follows the cuts since the last look; returns true if something has parted. The first look is at the whole body, or at a portion
+    /// of it. `cut_by`: [the crack that has cut each edge](MeshIndex::cut_by).
+    pub(super) fn follow(
+        &mut self,
         cuts: &Cuts,
         cut_by: &[u32],
         index: &MeshIndex,
         portion: Option<&Portion>,
-    ) -> Self {
-        let mut search = Search::new(cuts, cut_by, index, portion);
-        search.run();
-        search.finish()
-    }
-
-    /// Returns true if a node beside a cut belongs to another piece.
-    pub(super) fn is_outside(&self, node: u32) -> bool {
-        self.side_of_node[node as usize] == OUTSIDE
-    }
-
-    /// Component of a node that is not outside.
-    pub(super) fn of_node(&self, node: u32) -> u32 {
-        match self.side_of_node[node as usize] {
-            0 => self.rest,
-            side => self.of_side[side as usize - 1],
+    ) -> bool {
+        let mut starts = Vec::new();
+        if self.of_node.is_empty() {
+            *self = Self::whole(index, portion);
+            // Parts that no edge joins have parted before the first cut.
+            let first_nodes = portion.map_or(&index.first_nodes[..], |p| p.first_nodes());
+            if first_nodes.len() > 1 {
+                starts.extend_from_slice(first_nodes);
+            }
         }
+        for &v in &cuts.nodes()[self.touched..] {
+            self.is_touched[index.patches.of_node(v) as usize] = true;
+        }
+        self.touched = cuts.nodes().len();
+        let new = &cuts.list()[self.looked_at..];
+        self.looked_at = cuts.list().len();
+        starts.extend(new.iter().flat_map(|cut| cut.ends));
+        starts.retain(|&v| self.of_node[v as usize] != OUTSIDE);
+        // So that their neighbours are read one behind another.
+        starts.sort_unstable();
+        starts.dedup();
+        let count = self.list.len();
+        let mut search = Search::new(self, (cuts, cut_by, index), starts);
+        search.run();
+        search.finish();
+        self.list.len() > count
     }
 
-    /// Number of nodes that were seen.
+    /// The components, by rising lowest node.
+    pub(super) fn list(&self) -> Vec<Component> {
+        let mut list = self.list.clone();
+        list.sort_unstable_by_key(|component| component.lowest);
+        list
+    }
+
+    /// Returns true if a node belongs to another piece.
+    pub(super) fn is_outside(&self, node: u32) -> bool {
+        self.of_node[node as usize] == OUTSIDE
+    }
+
+    /// Component of a node that is not outside, as a place in [`Components::list`].
+    pub(super) fn of_node(&self, node: u32) -> u32 {
+        self.rank[self.of_node[node as usize] as usize]
+    }
+
+    /// Number of nodes that were seen in the last look.
     #[cfg(test)]
     pub(super) fn cost(&self) -> usize {
         self.seen.len()
@@ -83,144 +142,184 @@ impl Components {
 
     /// A number for every node, given that of every component; those of a portion's neighbours keep the portion's labels.
     pub(super) fn spread(&self, number: &[u32], portion: Option<&Portion>) -> Vec<u32> {
-        let rest = number[self.rest as usize];
-        let mut of_node;
-        match portion {
-            None => of_node = vec![rest; self.side_of_node.len()],
-            Some(portion) => {
-                of_node = vec![NOBODY; self.side_of_node.len()];
-                for &v in portion.nodes() {
-                    of_node[v as usize] = rest;
-                }
-                for &(v, label) in portion.rim() {
-                    of_node[v as usize] = label;
-                }
-            }
-        }
-        for &v in &self.seen {
-            of_node[v as usize] = number[self.of_node(v) as usize];
+        let numbers: Vec<u32> = self
+            .rank
+            .iter()
+            .map(|&rank| number[rank as usize])
+            .collect();
+        let number = |&component: &u32| numbers.get(component as usize).copied().unwrap_or(NOBODY);
+        let mut of_node: Vec<u32> = self.of_node.iter().map(number).collect();
+        for &(v, label) in portion.map_or(&[][..], |portion| portion.rim()) {
+            of_node[v as usize] = label;
         }
         of_node
     }
+
+    /// Adds the components that sides have parted from theirs; `parted` is the number of the new one for each node's side, if it has parted.
+    fn part(&mut self, index: &MeshIndex, new: usize, mut parted: impl FnMut(u32) -> Option<u32>) {
+        let before = self.list.len();
+        let (lowest, volume) = (u32::MAX, 0);
+        self.list.resize(before + new, Component { lowest, volume });
+        for &v in &self.seen {
+            let Some(number) = parted(self.side_of_node[v as usize] - 1) else {
+                continue;
+            };
+            let own = std::mem::replace(&mut self.of_node[v as usize], before as u32 + number);
+            let volume = index.volumes[v as usize];
+            self.list[own as usize].volume -= volume;
+            let component = &mut self.list[before + number as usize];
+            component.lowest = component.lowest.min(v);
+            component.volume += volume;
+        }
+        for (component, number) in self.list[..before].iter_mut().zip(0..) {
+            let mut from = component.lowest as usize..self.of_node.len();
+            let lowest = from.find(|&v| self.of_node[v] == number);
+            component.lowest = lowest.map_or(component.lowest, |lowest| lowest as u32);
+        }
+        let mut order: Vec<u32> = (0..self.list.len() as u32).collect();
+        order.sort_unstable_by_key(|&c| self.list[c as usize].lowest);
+        self.rank.resize(order.len(), 0);
+        for (rank, component) in (0..).zip(order) {
+            self.rank[component as usize] = rank;
+        }
+    }
 }
 
-/// Nodes seen from one place beside the cuts.
-#[derive(Clone, Debug)]
+/// Nodes seen from one place beside new cuts.
+#[derive(Clone, Debug, Default)]
 struct Side {
+    /// Component that it lies in.
+    component: u32,
     /// Nodes and [patches](PATCH) seen and not looked at, from `next` on.
     waiting: Vec<u32>,
     next: usize,
     /// Number of nodes that were looked at.
     looked_at: u32,
-    lowest: u32,
-    volume: u64,
+    has_parted: bool,
 }
 
 struct Search<'a> {
+    known: &'a mut Components,
     cuts: &'a Cuts,
+    cut_by: &'a [u32],
     index: &'a MeshIndex,
-    portion: Option<&'a Portion>,
-    side_of_node: Vec<u32>,
-    seen: Vec<u32>,
-    /// True for patches in which a side starts: their nodes are looked at one by one.
-    is_started: Vec<bool>,
     sides: Vec<Side>,
     /// Sides that have met.
     sets: DisjointSets,
-    /// Sides that may still go on, met ones counted once.
-    going: usize,
+    /// For each component, the sides that may still go on, met ones counted once.
+    going: Vec<u32>,
 }
 
 impl<'a> Search<'a> {
-    /// The sides: nodes with a cut edge, joined where an uncut edge joins them, and a node of each part of the mesh.
+    /// The sides: these nodes and those around them, joined where an uncut edge joins them.
     fn new(
-        cuts: &'a Cuts,
-        cut_by: &[u32],
-        index: &'a MeshIndex,
-        portion: Option<&'a Portion>,
+        known: &'a mut Components,
+        (cuts, cut_by, index): (&'a Cuts, &'a [u32], &'a MeshIndex),
+        starts: Vec<u32>,
     ) -> Self {
-        let mut side_of_node = vec![0_u32; index.nodes()];
-        let mut starts = cuts.nodes().to_vec();
-        // So that their neighbours are read one behind another.
-        starts.sort_unstable();
-        if let Some(portion) = portion {
-            starts.retain(|&v| {
-                let within = portion.has_node(v);
-                if !within {
-                    side_of_node[v as usize] = OUTSIDE;
-                }
-                within
-            });
-        }
-        let first_nodes = portion.map_or(&index.first_nodes[..], |p| p.first_nodes());
-        if first_nodes.len() > 1 {
-            let untouched = first_nodes.iter().filter(|&&v| !cuts.touches(v));
-            starts.extend(untouched);
-        }
-        let mut is_started = vec![false; index.patches.count()];
-        for (place, &v) in (1..).zip(&starts) {
-            side_of_node[v as usize] = place;
-            is_started[index.patches.of_node(v) as usize] = true;
-        }
         let mut sets = DisjointSets::new(starts.len());
-        for &v in starts.iter().filter(|&&v| cuts.touches(v)) {
-            for (w, edge) in index.edges_from(v) {
-                let within = cuts.touches(w) && side_of_node[w as usize] != OUTSIDE;
-                if within && cut_by[edge as usize] == EdgeCut::WHOLE {
-                    sets.join(side_of_node[v as usize] - 1, side_of_node[w as usize] - 1);
+        for (place, &v) in (1..).zip(&starts) {
+            known.side_of_node[v as usize] = place;
+        }
+        let going = vec![0; known.list.len()];
+        let mut search = Self {
+            known,
+            cuts,
+            cut_by,
+            index,
+            sides: Vec::new(),
+            sets: DisjointSets::new(0),
+            going,
+        };
+        // What the starts see: nodes and patches, each with the start that saw it first.
+        let mut beyond = Vec::new();
+        search.known.seen.clone_from(&starts);
+        for (place, &v) in (0..).zip(&starts) {
+            let is_cut = search.cuts.touches(v);
+            for &w in index.neighbours.of(v) {
+                match search.known.side_of_node[w as usize] {
+                    0 if !search.parts(v, w, is_cut) => beyond.push((search.see(w, place), place)),
+                    0 => {}
+                    other if sets.find(other - 1) == sets.find(place) => {}
+                    _ if search.parts(v, w, is_cut) => {}
+                    other => {
+                        sets.join(place, other - 1);
+                    }
                 }
             }
         }
-        let mut search = Self {
-            cuts,
-            index,
-            portion,
-            side_of_node,
-            is_started,
-            sets: DisjointSets::new(0),
-            sides: Vec::new(),
-            going: 0,
-            seen: starts,
-        };
-        search.gather(&mut sets);
+        search.gather(&starts, &mut sets, beyond);
         search
     }
 
-    /// A side for every set of starts.
-    fn gather(&mut self, sets: &mut DisjointSets) {
-        let mut side_of_set = vec![u32::MAX; self.seen.len()];
-        for (place, &v) in self.seen.iter().enumerate() {
-            let side = &mut side_of_set[sets.find(place as u32) as usize];
+    /// A side for every set of starts, and what it has seen.
+    fn gather(&mut self, starts: &[u32], sets: &mut DisjointSets, beyond: Vec<(u32, u32)>) {
+        let mut side_of_set = vec![u32::MAX; starts.len()];
+        let mut side_of_start = Vec::with_capacity(starts.len());
+        for (place, &v) in (0..).zip(starts) {
+            let side = &mut side_of_set[sets.find(place) as usize];
             if *side == u32::MAX {
                 *side = self.sides.len() as u32;
-                self.sides.push(Side::default());
+                let component = self.known.of_node[v as usize];
+                self.going[component as usize] += 1;
+                self.sides.push(Side {
+                    component,
+                    ..Side::default()
+                });
             }
-            self.side_of_node[v as usize] = *side + 1;
-            self.sides[*side as usize].add(v, self.index);
+            side_of_start.push(*side);
+        }
+        let known = &mut *self.known;
+        for &v in &known.seen {
+            let side = &mut known.side_of_node[v as usize];
+            *side = side_of_start[*side as usize - 1] + 1;
+        }
+        for (at, start) in beyond {
+            let side = side_of_start[start as usize];
+            self.sides[side as usize].waiting.push(at);
         }
         self.sets = DisjointSets::new(self.sides.len());
-        self.going = self.sides.len();
+    }
+
+    /// Returns true if a cut parts two nodes that an edge joins; `is_cut`: whether the first has a cut edge.
+    #[inline]
+    fn parts(&self, v: u32, w: u32, is_cut: bool) -> bool {
+        let cut = |edge: u32| self.cut_by[edge as usize] != EdgeCut::WHOLE;
+        self.known.is_outside(w)
+            || is_cut
+                && self.cuts.touches(w)
+                && self.index.edge(v.min(w), v.max(w)).is_some_and(cut)
     }
 
     fn run(&mut self) {
-        let mut order: BinaryHeap<Reverse<(u32, u32)>> = (0..self.sides.len() as u32)
-            .map(|side| Reverse((0, side)))
-            .collect();
-        while self.going > 1 {
+        let mut left: u32 = self.going.iter().map(|going| going.saturating_sub(1)).sum();
+        let sides = (0..).zip(&self.sides);
+        let several = sides.filter(|(_, side)| self.going[side.component as usize] > 1);
+        let mut order: BinaryHeap<Reverse<(u32, u32)>> =
+            several.map(|(side, _)| Reverse((0, side))).collect();
+        while left > 0 {
             let Some(Reverse((looked_at, side))) = order.pop() else {
                 break;
             };
+            let s = &self.sides[side as usize];
+            let component = s.component as usize;
             // Entries of sides that have met another, or have gone on since, are out of date.
-            if self.sets.find(side) != side || self.sides[side as usize].looked_at != looked_at {
+            if self.sets.find(side) != side
+                || s.looked_at != looked_at
+                || self.going[component] == 1
+            {
                 continue;
             }
+            let before = self.going[component];
             let side = self.turn(side);
-            let s = &self.sides[side as usize];
+            let s = &mut self.sides[side as usize];
             if s.next < s.waiting.len() {
                 order.push(Reverse((s.looked_at, side)));
-            } else {
-                self.going -= 1;
+            } else if self.going[component] > 1 {
+                s.has_parted = true;
+                self.going[component] -= 1;
             }
+            left -= before - self.going[component];
         }
     }
 
@@ -244,39 +343,36 @@ impl<'a> Search<'a> {
             s.looked_at += nodes;
             left = left.saturating_sub(nodes);
             for &w in beside {
-                match self.side_of_node[w as usize] {
-                    // Not beside a cut, or it would be a start: the edge is whole.
-                    0 => self.see(w, side),
-                    OUTSIDE => {}
-                    // Between two starts an uncut edge has joined them already.
-                    _ if is_cut && self.cuts.touches(w) => {}
-                    other => side = self.meet(side, other - 1),
+                match self.known.side_of_node[w as usize] {
+                    0 if !self.parts(at, w, is_cut) => {
+                        let at = self.see(w, side);
+                        self.sides[side as usize].waiting.push(at);
+                    }
+                    other if other > 0 && other - 1 != side && !self.parts(at, w, is_cut) => {
+                        side = self.meet(side, other - 1);
+                    }
+                    _ => {}
                 }
             }
         }
         side
     }
 
-    /// Gives a side a node that nobody has seen, and with it the whole patch where no side starts in that.
+    /// Gives a side a node that nobody has seen, and with it the whole patch where no cut touches that; returns what is to be looked at.
     #[inline]
-    fn see(&mut self, node: u32, side: u32) {
-        let index = self.index;
-        let patch = index.patches.of_node(node);
-        let own = &mut self.sides[side as usize];
-        if self.is_started[patch as usize] {
-            self.side_of_node[node as usize] = side + 1;
-            self.seen.push(node);
-            own.add(node, index);
-            return;
-        }
-        let nodes = index.patches.nodes(patch);
+    fn see(&mut self, node: u32, side: u32) -> u32 {
+        let known = &mut *self.known;
+        let patch = self.index.patches.of_node(node);
+        let is_touched = known.is_touched[patch as usize];
+        let nodes = match is_touched {
+            true => std::slice::from_ref(&node),
+            false => self.index.patches.nodes(patch),
+        };
         for &v in nodes {
-            self.side_of_node[v as usize] = side + 1;
+            known.side_of_node[v as usize] = side + 1;
         }
-        self.seen.extend_from_slice(nodes);
-        own.lowest = own.lowest.min(nodes[0]);
-        own.volume += index.volume_of(nodes);
-        own.waiting.push(PATCH | patch);
+        known.seen.extend_from_slice(nodes);
+        if is_touched { node } else { PATCH | patch }
     }
 
     fn meet(&mut self, a: u32, b: u32) -> u32 {
@@ -287,98 +383,34 @@ impl<'a> Search<'a> {
         // The lower one stays.
         let side = self.sets.join(a, b);
         let gone = std::mem::take(&mut self.sides[a.max(b) as usize]);
-        self.sides[side as usize].take(gone);
-        self.going -= 1;
+        let own = &mut self.sides[side as usize];
+        own.take(gone);
+        self.going[own.component as usize] -= 1;
         side
     }
 
-    fn finish(mut self) -> Components {
-        let ends: Vec<u32> = (0..self.sides.len() as u32)
-            .filter(|&side| self.sets.find(side) == side)
+    /// Makes components of the sides that have parted.
+    fn finish(mut self) {
+        let mut new = 0;
+        let numbers: Vec<Option<u32>> = (self.sides.iter())
+            .map(|side| {
+                let number = side.has_parted.then_some(new);
+                new += u32::from(side.has_parted);
+                number
+            })
             .collect();
-        let unfinished = ends.iter().copied().find(|&side| {
-            let s = &self.sides[side as usize];
-            s.next < s.waiting.len()
-        });
-        if let Some(rest) = unfinished {
-            self.complete(rest, &ends);
+        if new > 0 {
+            let sets = &mut self.sets;
+            let parted = |side| numbers[sets.find(side) as usize];
+            self.known.part(self.index, new as usize, parted);
         }
-        let mut order = ends;
-        order.sort_unstable_by_key(|&side| self.sides[side as usize].lowest);
-        let component = |&side: &u32| {
-            let Side { lowest, volume, .. } = self.sides[side as usize];
-            Component { lowest, volume }
-        };
-        let mut list: Vec<Component> = order.iter().map(component).collect();
-        if list.is_empty() {
-            list.push(Component {
-                lowest: 0,
-                volume: self.whole(),
-            });
-        }
-        let mut component_of_end = vec![0; self.sides.len()];
-        for (component, &side) in order.iter().enumerate() {
-            component_of_end[side as usize] = component as u32;
-        }
-        let of_side: Vec<u32> = (0..self.sides.len() as u32)
-            .map(|side| component_of_end[self.sets.find(side) as usize])
-            .collect();
-        let rest = unfinished.map_or(0, |side| component_of_end[side as usize]);
-        Components {
-            list,
-            rest,
-            seen: self.seen,
-            side_of_node: self.side_of_node,
-            of_side,
-        }
-    }
-
-    /// Gives a side all that nobody has seen.
-    fn complete(&mut self, rest: u32, ends: &[u32]) {
-        let others = ends.iter().filter(|&&side| side != rest);
-        let elsewhere: u64 = others.map(|&s| self.sides[s as usize].volume).sum();
-        let sides = &self.side_of_node;
-        let sets = &mut self.sets;
-        let mut is_rest = |v: &u32| match sides[*v as usize] {
-            0 => true,
-            side => sets.find(side - 1) == rest,
-        };
-        let lowest = match self.portion {
-            Some(portion) => portion.nodes().iter().copied().find(is_rest),
-            None => (0..self.index.nodes() as u32).find(&mut is_rest),
-        };
-        let whole = self.whole();
-        let side = &mut self.sides[rest as usize];
-        side.volume = whole - elsewhere;
-        side.lowest = lowest.unwrap_or(0);
-    }
-
-    /// Volume of all nodes that there are.
-    fn whole(&self) -> u64 {
-        self.portion
-            .map_or(self.index.whole, |portion| portion.whole())
-    }
-}
-
-impl Default for Side {
-    fn default() -> Self {
-        Self {
-            waiting: Vec::new(),
-            next: 0,
-            looked_at: 0,
-            lowest: u32::MAX,
-            volume: 0,
+        for &v in &self.known.seen {
+            self.known.side_of_node[v as usize] = 0;
         }
     }
 }
 
 impl Side {
-    fn add(&mut self, node: u32, index: &MeshIndex) {
-        self.waiting.push(node);
-        self.lowest = self.lowest.min(node);
-        self.volume += index.volumes[node as usize];
-    }
-
     fn take(&mut self, mut other: Self) {
         if other.waiting.len() - other.next > self.waiting.len() - self.next {
             std::mem::swap(&mut self.waiting, &mut other.waiting);
@@ -386,7 +418,5 @@ impl Side {
         }
         self.waiting.extend_from_slice(&other.waiting[other.next..]);
         self.looked_at += other.looked_at;
-        self.lowest = self.lowest.min(other.lowest);
-        self.volume += other.volume;
     }
 }

@@ -102,8 +102,7 @@ fn broken(surface: &RenderSurface, count: u32, random: bool, seed: u64) -> Vec<F
     let labels = Labels {
         of_node,
         count: count as usize,
-        cuts,
-        known: Known::default(),
+        ..Labels::new(cuts, Known::default())
     };
     let config = FractureConfig::default();
     let body = Breakable::of_sound(asset.into()).body(1);

@@ -3,7 +3,7 @@
 use super::build::{Built, build_cracked};
 use super::draft::divided_tets;
 use super::draw::draw;
-use super::label::{Labels, of_cuts};
+use super::label::Labels;
 use super::partition::{Interface, interfaces};
 use super::points::PointTable;
 use crate::body::Body;
@@ -29,7 +29,8 @@ pub fn pieces_of_cuts(
         cut_by: prepared.index.cut_by(cuts.list()),
         ..Known::default()
     };
-    let labels = of_cuts(cuts, known, &mesh.tets, &prepared.index, None, crumb_share);
+    let mut labels = Labels::new(cuts, known);
+    labels.follow(&mesh.tets, &prepared.index, None, crumb_share);
     let Built {
         mut fragments,
         undrawn,
@@ -52,12 +53,9 @@ pub fn interfaces_of_labels(
     cuts: &[CutEdge],
 ) -> Vec<([u32; 2], u32, f64)> {
     let mesh = &body.asset.fracture;
-    let labels = Labels {
-        count: of_node.iter().max().map_or(0, |&l| l as usize + 1),
-        cuts: Cuts::at_places(cuts, of_node.len()),
-        of_node,
-        known: Known::default(),
-    };
+    let mut labels = Labels::new(Cuts::at_places(cuts, of_node.len()), Known::default());
+    labels.count = of_node.iter().max().map_or(0, |&l| l as usize + 1);
+    labels.of_node = of_node;
     let mut table = PointTable::new(mesh, &labels.cuts, None);
     let mut found: Vec<([u32; 2], u32, f64)> = Vec::new();
     for tet in divided_tets(&mesh.tets, &body.prepared.index, &labels) {

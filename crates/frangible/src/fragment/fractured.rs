@@ -1,7 +1,4 @@
-//! Fractured tetrahedra by their nodes and edges, for cracks that end inside them.
-//!
-//! Thousands of fronts end in a break, and each looks at all fractured tetrahedra about four nodes or more. So what most of these looks need
-//! lies close together: the tetrahedron and the latest round that was there.
+//! Fractured tetrahedra, for cracks that end inside them.
 
 use crate::body::MeshIndex;
 use crate::crack::{CrackSystem, ELSEWHERE, UNCUT};
@@ -11,70 +8,52 @@ use crate::state::EdgeCut;
 /// All corners of a tetrahedron, a bit each.
 pub(super) const ALL: u8 = 0b1111;
 
-/// State of a fractured tetrahedron in a round of looks.
+/// State of a tetrahedron in a round of looks.
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Look {
-    pub(super) tet: u32,
     /// Latest round that was here.
     pub(super) round: u32,
     /// Corners that need no look any more in that round, a bit each.
     pub(super) done: u8,
 }
 
-/// All fractured tetrahedra, by rising number.
+/// The tetrahedra that cracks have fractured.
 pub(super) struct Fractured<'a> {
-    pub(super) looks: Vec<Look>,
-    /// Their corners.
-    pub(super) corners: Vec<[u32; 4]>,
-    /// Their cracks.
-    pub(super) by: Vec<u32>,
-    /// Start of the list of those around each node.
-    starts: Vec<u32>,
-    /// Those around each node: four times the place, plus the corner that the node is.
-    around: Vec<u32>,
-    /// Numbers of their edges.
-    pub(super) edges: Vec<[u32; 6]>,
+    tets: &'a [[u32; 4]],
+    by: &'a [u32],
+    index: &'a MeshIndex,
     /// The crack that has cut each edge of the mesh.
     cut_by: &'a mut [u32],
 }
 
 impl<'a> Fractured<'a> {
     /// `cut_by`: the crack that has cut each edge of the mesh.
-    pub(super) fn of(system: &CrackSystem, index: &MeshIndex, cut_by: &'a mut [u32]) -> Self {
-        let mesh = &system.asset.fracture;
-        let nodes = mesh.positions.len();
-        let (mut looks, mut corners, mut by) = (Vec::new(), Vec::new(), Vec::new());
-        let mut edges = Vec::new();
-        for (tet, &crack) in (0..).zip(&system.fractured_by) {
-            if crack != UNCUT && crack != ELSEWHERE {
-                let (round, done) = (0, 0);
-                looks.push(Look { tet, round, done });
-                corners.push(mesh.tets[tet as usize]);
-                by.push(crack);
-                edges.push(index.edges.of_tet(tet));
-            }
-        }
-        let (starts, around) = around(nodes, &corners);
+    pub(super) fn of(system: &'a CrackSystem, index: &'a MeshIndex, cut_by: &'a mut [u32]) -> Self {
         Self {
-            edges,
-            looks,
-            corners,
-            by,
-            starts,
-            around,
+            tets: &system.asset.fracture.tets,
+            by: &system.fractured_by,
+            index,
             cut_by,
         }
     }
 
-    /// Range of the fractured tetrahedra around a node in the list, rising.
-    pub(super) fn around(&self, node: u32) -> std::ops::Range<usize> {
-        let v = node as usize;
-        self.starts[v] as usize..self.starts[v + 1] as usize
+    /// All tetrahedra around a node.
+    pub(super) fn around(&self, node: u32) -> &'a [u32] {
+        self.index.tets.of(node)
     }
 
-    /// The place of a listed tetrahedron, and the corner that the node is.
-    pub(super) fn at(&self, listed: usize) -> (usize, usize) {
-        let listed = self.around[listed] as usize;
-        (listed / 4, listed % 4)
+    /// The crack that has fractured a tetrahedron; none if it is whole or belongs to another piece.
+    pub(super) fn by(&self, tet: u32) -> Option<u32> {
+        Some(self.by[tet as usize]).filter(|&by| by != UNCUT && by != ELSEWHERE)
+    }
+
+    pub(super) fn corners(&self, tet: u32) -> [u32; 4] {
+        self.tets[tet as usize]
+    }
+
+    /// Numbers of the edges of a tetrahedron.
+    pub(super) fn edges(&self, tet: u32) -> [u32; 6] {
+        self.index.edges.of_tet(tet)
     }
 
     /// A crack cuts an edge.
@@ -93,24 +72,6 @@ impl<'a> Fractured<'a> {
         }
         (cut, if own { cut } else { cut & others })
     }
-}
-
-/// Tetrahedra of these corners around each node: the start of each node's list, and all lists.
-fn around(nodes: usize, corners: &[[u32; 4]]) -> (Vec<u32>, Vec<u32>) {
-    let mut starts = vec![0_u32; nodes + 1];
-    for &v in corners.iter().flatten() {
-        starts[v as usize + 1] += 1;
-    }
-    for v in 0..nodes {
-        starts[v + 1] += starts[v];
-    }
-    let mut next = starts.clone();
-    let mut around = vec![0; 4 * corners.len()];
-    for (listed, &v) in (0..).zip(corners.iter().flatten()) {
-        around[next[v as usize] as usize] = listed;
-        next[v as usize] += 1;
-    }
-    (starts, around)
 }
 
 /// Edges of a tetrahedron between a corner of these, a bit each, and one that is none of them, a bit each.

@@ -9,7 +9,7 @@
 
 use glam::Vec3;
 
-use super::fractured::{ALL, Fractured, crossed, reachable};
+use super::fractured::{ALL, Fractured, Look, crossed, reachable};
 use crate::body::MeshIndex;
 use crate::crack::{CrackSystem, ElementCut, Known};
 use crate::mesh::EDGES;
@@ -18,12 +18,21 @@ use crate::state::Cuts;
 /// Distance from its last tetrahedron to which a newcomer is continued, in mean edges.
 const REACH: f32 = 2.5;
 
+/// State of the search for ends, kept from look to look.
+#[derive(Debug, Default)]
+pub(crate) struct Ends {
+    /// State of each tetrahedron.
+    looks: Vec<Look>,
+    queue: Queue,
+}
+
 /// Ends every crack inside what it has met since the last look, cracks in order, junctions in the order they happened.
 pub(crate) fn end_cracks(
     system: &CrackSystem,
     index: &MeshIndex,
     cuts: &mut Cuts,
     known: &mut Known,
+    ends: &mut Ends,
 ) {
     let Known { cut_by, looked_at } = known;
     let cracks = || system.cracks.iter();
@@ -31,7 +40,11 @@ pub(crate) fn end_cracks(
         return;
     }
     let mut fractured = Fractured::of(system, index, cut_by);
-    let mut queue = Queue::new(system.asset.fracture.positions.len());
+    if ends.looks.is_empty() {
+        let mesh = &system.asset.fracture;
+        ends.looks = vec![Look::default(); mesh.tets.len()];
+        ends.queue = Queue::new(mesh.positions.len());
+    }
     for (id, (crack, [_, done])) in (0..).zip(cracks().zip(looked_at)) {
         let first = std::mem::replace(done, crack.junctions.len());
         // A front that met several tetrahedra from one of its own ends the same way in all of them.
@@ -41,7 +54,7 @@ pub(crate) fn end_cracks(
             if !std::mem::replace(ended, true) {
                 let last = &crack.elements[junction.from as usize];
                 let continued = Continued::new(system, id, last, junction.own);
-                continued.cut(cuts, &mut fractured, &mut queue);
+                continued.cut(cuts, &mut fractured, ends);
             }
         }
     }
@@ -91,20 +104,26 @@ impl<'a> Continued<'a> {
         self.level + (self.place(node) - self.centre).dot(self.last.direction)
     }
 
-    fn cut(&self, cuts: &mut Cuts, fractured: &mut Fractured, queue: &mut Queue) {
+    fn cut(&self, cuts: &mut Cuts, fractured: &mut Fractured, ends: &mut Ends) {
+        let Ends { looks, queue } = ends;
         queue.begin(&self.nodes, &self.last.values);
         while let Some(v) = queue.pop() {
-            for at in fractured.around(v) {
-                let (place, corner) = fractured.at(at);
-                let look = &mut fractured.looks[place];
+            for &tet in fractured.around(v) {
+                let Some(by) = fractured.by(tet) else {
+                    continue;
+                };
+                let look = &mut looks[tet as usize];
                 if look.round != queue.round {
-                    let passed_over = look.tet == self.last.tet
-                        || (fractured.by[place] == self.newcomer && !self.own);
+                    let passed_over = tet == self.last.tet || (by == self.newcomer && !self.own);
                     (look.round, look.done) = (queue.round, if passed_over { ALL } else { 0 });
                 }
+                if look.done == ALL {
+                    continue;
+                }
+                let corners = fractured.corners(tet);
+                let corner = corners.iter().position(|&w| w == v).unwrap_or(0);
                 if look.done & (1 << corner) == 0 {
-                    let done = self.cut_tet(place, corner, cuts, fractured, queue);
-                    fractured.looks[place].done |= done;
+                    look.done |= self.cut_tet(tet, corner, cuts, fractured, queue);
                 }
             }
         }
@@ -114,13 +133,13 @@ impl<'a> Continued<'a> {
     /// corners the same ones can be reached, but for what was cut since, so that all of them are done: they are returned, a bit each.
     fn cut_tet(
         &self,
-        place: usize,
+        tet: u32,
         start: usize,
         cuts: &mut Cuts,
         fractured: &mut Fractured,
         queue: &mut Queue,
     ) -> u8 {
-        let corners = fractured.corners[place];
+        let corners = fractured.corners(tet);
         let mut below = 0;
         for (k, &w) in corners.iter().enumerate() {
             below |= u8::from(queue.is_below(w, || self.value(w))) << k;
@@ -128,7 +147,7 @@ impl<'a> Continued<'a> {
         if below == 0 || below == ALL {
             return ALL;
         }
-        let edges = fractured.edges[place];
+        let edges = fractured.edges(tet);
         let (cut, blocked) = fractured.cut_and_blocked(edges, self.newcomer, self.own);
         let whole = crossed(below) & !cut;
         if whole == 0 {
@@ -156,6 +175,7 @@ impl<'a> Continued<'a> {
 }
 
 /// Nodes to look at, each once per round, and the newcomer's s at nodes.
+#[derive(Debug, Default)]
 struct Queue {
     nodes: Vec<u32>,
     next: usize,

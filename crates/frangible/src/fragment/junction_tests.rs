@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::Vec3;
 
-use super::junction::end_cracks;
+use super::junction::{Ends, end_cracks};
 use super::tests::block;
 use crate::asset::Asset;
 use crate::crack::CrackSystem;
@@ -136,7 +136,7 @@ fn cracks_end_where_the_plain_flood_ends_them() {
         };
         let ((mut cuts, mut known), (mut expected, _)) = (fractured(), fractured());
         let before = cuts.list().len();
-        end_cracks(&system, index, &mut cuts, &mut known);
+        end_cracks(&system, index, &mut cuts, &mut known, &mut Ends::default());
         end_plainly(&system, &mut expected);
         assert_eq!(cuts.list(), expected.list());
         assert_eq!(known.cut_by, index.cut_by(cuts.list()));

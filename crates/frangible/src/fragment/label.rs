@@ -1,7 +1,7 @@
 //! Labels: fragments are the connected components of nodes over uncut edges `[G12 §6.1-6.2]`.
 
 use super::components::{Component, Components};
-use super::junction::end_cracks;
+use super::junction::{Ends, end_cracks};
 use crate::asset::Portion;
 use crate::body::MeshIndex;
 use crate::crack::{CrackSystem, Known};
@@ -19,6 +19,10 @@ pub(crate) struct Labels {
     pub(crate) cuts: Cuts,
     /// State that the next look goes on from.
     pub(crate) known: Known,
+    /// True if something has parted between the last two looks.
+    pub(crate) has_parted: bool,
+    pub(super) ends: Ends,
+    pub(super) components: Components,
 }
 
 /// Cuts, flood fill, crumbs: components smaller than `crumb_share` of the volume of the body as it was baked join the
@@ -29,41 +33,60 @@ pub(crate) fn label(
     crumb_share: f64,
     before: Option<Labels>,
 ) -> Labels {
-    let (mut cuts, mut known) = match before {
-        Some(before) => (before.cuts, before.known),
-        None => Cuts::settled(system, index),
-    };
-    cuts.follow(system, index, &mut known);
+    let mut labels = before.unwrap_or_else(|| {
+        let (cuts, known) = Cuts::settled(system, index);
+        Labels::new(cuts, known)
+    });
+    let Labels {
+        cuts, known, ends, ..
+    } = &mut labels;
+    cuts.follow(system, index, known);
     if !system.config.is_paper() {
-        end_cracks(system, index, &mut cuts, &mut known);
+        end_cracks(system, index, cuts, known, ends);
     }
     let portion = system.asset.portion.as_deref();
-    let tets = &system.asset.fracture.tets;
-    of_cuts(cuts, known, tets, index, portion, crumb_share)
+    labels.follow(&system.asset.fracture.tets, index, portion, crumb_share);
+    labels
 }
 
-/// The labels that these cuts leave, of the whole body or of a portion of it. Nodes of other pieces have labels from
-/// [`FOREIGN`](crate::asset::FOREIGN) on.
-pub(crate) fn of_cuts(
-    cuts: Cuts,
-    known: Known,
-    tets: &[[u32; 4]],
-    index: &MeshIndex,
-    portion: Option<&Portion>,
-    crumb_share: f64,
-) -> Labels {
-    let components = Components::of(&cuts, &known.cut_by, index, portion);
-    let (number, count) = if components.list.len() == 1 {
-        (vec![0], 1)
-    } else {
-        let joined = absorb_crumbs(&components, &cuts, tets, index, crumb_share);
-        number(&components.list, &joined)
-    };
-    Labels {
-        of_node: components.spread(&number, portion),
-        count,
-        cuts,
-        known,
+impl Labels {
+    /// Labels that have not [followed](Self::follow) these cuts yet.
+    pub(super) fn new(cuts: Cuts, known: Known) -> Self {
+        Self {
+            of_node: Vec::new(),
+            count: 0,
+            cuts,
+            known,
+            has_parted: false,
+            ends: Ends::default(),
+            components: Components::default(),
+        }
+    }
+
+    /// The labels that the cuts leave, of the whole body or of a portion of it. Nodes of other pieces have labels from
+    /// [`FOREIGN`](crate::asset::FOREIGN) on.
+    pub(super) fn follow(
+        &mut self,
+        tets: &[[u32; 4]],
+        index: &MeshIndex,
+        portion: Option<&Portion>,
+        crumb_share: f64,
+    ) {
+        let components = &mut self.components;
+        self.has_parted = components.follow(&self.cuts, &self.known.cut_by, index, portion);
+        if !self.has_parted && self.count > 0 {
+            return;
+        }
+        let list = components.list();
+        let (number, count) = match list.len() {
+            1 => (vec![0], 1),
+            _ => {
+                let joined = absorb_crumbs(&list, components, &self.cuts, tets, index, crumb_share);
+                number(&list, &joined)
+            }
+        };
+        self.of_node = components.spread(&number, portion);
+        self.count = count;
     }
 }
 
@@ -72,13 +95,13 @@ type Meeting = (u32, u32, u32);
 
 /// The component that each component is part of after crumbs have joined a neighbour: the lowest of them.
 fn absorb_crumbs(
+    list: &[Component],
     components: &Components,
     cuts: &Cuts,
     tets: &[[u32; 4]],
     index: &MeshIndex,
     crumb_share: f64,
 ) -> Vec<u32> {
-    let list = &components.list;
     let count = list.len();
     let limit = crumb_share * index.whole as f64;
     let crumb = |volume: u64| (volume as f64) < limit;

@@ -4,7 +4,7 @@ use glam::Vec3;
 use rand_chacha::rand_core::Rng;
 
 use super::components::Components;
-use super::label::{Labels, of_cuts};
+use super::label::Labels;
 use super::tests::block;
 use super::volumes::Volumes;
 use crate::asset::Asset;
@@ -15,7 +15,7 @@ use crate::mesh::{EDGES, TetMesh};
 use crate::rng::{Purpose, stream, uniform};
 use crate::state::Cuts;
 
-/// [`of_cuts`], the plain way.
+/// [`Labels::follow`], the plain way.
 fn plain(cuts: &Cuts, tets: &[[u32; 4]], volumes: &[u64], crumb_share: f64) -> (Vec<u32>, usize) {
     let nodes = volumes.len();
     let mut sets = DisjointSets::new(nodes);
@@ -77,7 +77,9 @@ fn labelled(cuts: Cuts, tets: &[[u32; 4]], index: &MeshIndex, crumb_share: f64) 
         cut_by: index.cut_by(cuts.list()),
         ..Known::default()
     };
-    of_cuts(cuts, known, tets, index, None, crumb_share)
+    let mut labels = Labels::new(cuts, known);
+    labels.follow(tets, index, None, crumb_share);
+    labels
 }
 
 /// Number of pieces, and whether crumbs were absorbed, for several sizes of crumbs.
@@ -194,8 +196,10 @@ fn a_crack_costs_what_it_crosses_not_what_the_body_has() {
             let mesh = &asset.fracture;
             let cuts = cut_where(mesh, |low, high| crosses(mesh, &discs, low, high));
             let index = MeshIndex::new(&asset);
-            let components = Components::of(&cuts, &index.cut_by(cuts.list()), &index, None);
-            assert_eq!(components.list.len() > 1, parts);
+            let mut components = Components::default();
+            let cut_by = index.cut_by(cuts.list());
+            assert_eq!(components.follow(&cuts, &cut_by, &index, None), parts);
+            assert_eq!(components.list().len() > 1, parts);
             components.cost()
         });
         assert!(costs[1] < 300 && costs[1] * 3 < costs[0] * 4, "{costs:?}");
@@ -228,7 +232,11 @@ fn edges_are_numbered_by_their_lower_node_and_then_by_their_higher() {
     let asset = block(4);
     let index = MeshIndex::new(&asset);
     let nodes = 0..asset.fracture.positions.len() as u32;
-    let from = |low: u32| index.edges_from(low).map(move |(high, _)| [low, high]);
+    let from = |low: u32| {
+        let all = index.neighbours.of(low).iter();
+        all.filter(move |&&high| low < high)
+            .map(move |&high| [low, high])
+    };
     let edges: Vec<[u32; 2]> = nodes.flat_map(from).collect();
     assert!(edges.is_sorted() && edges.len() == index.edges.count());
     for (number, [low, high]) in (0..).zip(&edges) {

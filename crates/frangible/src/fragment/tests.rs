@@ -137,8 +137,7 @@ fn fragments_of_arbitrary_labels_tile_the_body_and_are_closed() {
         let labels = Labels {
             of_node,
             count: count as usize,
-            cuts,
-            known: Known::default(),
+            ..Labels::new(cuts, Known::default())
         };
         let fragments = build(&system, &labels, &body.prepared).fragments;
         assert_eq!(fragments.len(), count as usize);
@@ -187,8 +186,7 @@ fn the_fragment_that_holds_a_supported_node_is_supported() {
     let labels = Labels {
         of_node,
         count: 2,
-        cuts,
-        known: Known::default(),
+        ..Labels::new(cuts, Known::default())
     };
     for node in 0..nodes {
         asset.supported = vec![node];
