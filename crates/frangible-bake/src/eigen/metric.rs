@@ -6,7 +6,7 @@ use faer::MatRef;
 use faer::sparse::SparseColMat;
 
 use crate::eigen::basis::{Block, dot, orthonormalise};
-use crate::eigen::panel::{Row, WIDTH, add_multiple, vectorised};
+use crate::eigen::panel::{Row, WIDTH, add_multiple};
 use crate::fem::{Mass, multiply_symmetric};
 
 /// B of the scaled problem A x = λ B x.
@@ -61,6 +61,24 @@ impl Rows {
     }
 }
 
+frangible::widest! {
+    /// (S ⊗ I) x, where I has `axes` rows.
+    fn product(rows: &Rows, axes: usize, x: &[Row]) -> Vec<Row> {
+        let mut image = Vec::with_capacity(x.len());
+        for range in rows.starts.windows(2) {
+            let entries = &rows.entries[range[0]..range[1]];
+            for axis in 0..axes {
+                let mut sum = [0.0; WIDTH];
+                for &(j, value) in entries {
+                    add_multiple(&mut sum, value, &x[axes * j + axis]);
+                }
+                image.push(sum);
+            }
+        }
+        image
+    }
+}
+
 impl Metric {
     /// B = D M D with D = diag(M)^-½, which is `inverse_root` (three per node).
     pub(crate) fn new(mass: &Mass, inverse_root: &[f64]) -> Self {
@@ -91,20 +109,7 @@ impl Metric {
         let Self::Mass { axes, rows, .. } = self else {
             return None;
         };
-        Some(vectorised(|| {
-            let mut image = Vec::with_capacity(x.len());
-            for range in rows.starts.windows(2) {
-                let entries = &rows.entries[range[0]..range[1]];
-                for axis in 0..*axes {
-                    let mut sum = [0.0; WIDTH];
-                    for &(j, value) in entries {
-                        add_multiple(&mut sum, value, &x[axes * j + axis]);
-                    }
-                    image.push(sum);
-                }
-            }
-            image
-        }))
+        Some(product(rows, *axes, x))
     }
 
     /// B x, column by column.

@@ -1,7 +1,6 @@
 //! Panels of eight vectors in row-major order, so that every kernel works on whole rows.
 
 use faer::linalg::matmul::matmul;
-use faer::traits::ComplexField;
 use faer::{Accum, MatMut, MatRef, Par};
 
 use crate::eigen::portable::{self, Sums};
@@ -16,11 +15,6 @@ pub(crate) type Row = [f64; WIDTH];
 
 /// Coefficients between two panels: row a holds what belongs to vector a of the first.
 pub(crate) type Square = [Row; WIDTH];
-
-/// Runs a kernel with the widest vector instructions of the machine.
-pub(crate) fn vectorised<R>(kernel: impl FnOnce() -> R) -> R {
-    <f64 as ComplexField>::Arch::default().dispatch(kernel)
-}
 
 /// to += factor × row.
 #[inline(always)]

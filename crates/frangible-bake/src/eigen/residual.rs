@@ -3,7 +3,7 @@
 use faer::sparse::SparseColMat;
 
 use crate::eigen::Modes;
-use crate::eigen::panel::{Row, WIDTH, add_multiple, panel_of_columns, vectorised};
+use crate::eigen::panel::{Row, WIDTH, add_multiple, panel_of_columns};
 use crate::eigen::reduce::Reduction;
 use crate::error::BakeError;
 use crate::fem::{Mass, System};
@@ -117,19 +117,22 @@ fn residuals(
     std::array::from_fn(|l| (rest[l] / whole[l]).sqrt())
 }
 
-/// y += (S ⊗ I) x, where the lower triangle of S is given and I has `axes` rows.
-pub(crate) fn add_product(lower: &SparseColMat<usize, f64>, axes: usize, x: &[Row], y: &mut [Row]) {
-    let (pattern, values) = lower.parts();
-    vectorised(|| {
+frangible::widest! {
+    /// y += (S ⊗ I) x, where the lower triangle of S is given and I has `axes` rows.
+    pub(crate) fn add_product(
+        lower: &SparseColMat<usize, f64>,
+        axes: usize,
+        x: &[Row],
+        y: &mut [Row],
+    ) {
+        let (pattern, values) = lower.parts();
         for j in 0..pattern.ncols() {
             let range = pattern.col_range(j);
             for axis in 0..axes {
                 let from = x[axes * j + axis];
                 let mut sum = [0.0; WIDTH];
-                for (&i, &value) in pattern.row_idx()[range.clone()]
-                    .iter()
-                    .zip(&values[range.clone()])
-                {
+                let rows = pattern.row_idx()[range.clone()].iter();
+                for (&i, &value) in rows.zip(&values[range.clone()]) {
                     let row = axes * i + axis;
                     add_multiple(&mut sum, value, &x[row]);
                     if i != j {
@@ -139,5 +142,5 @@ pub(crate) fn add_product(lower: &SparseColMat<usize, f64>, axes: usize, x: &[Ro
                 add_multiple(&mut y[axes * j + axis], 1.0, &sum);
             }
         }
-    });
+    }
 }

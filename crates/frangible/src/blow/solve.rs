@@ -83,9 +83,11 @@ pub(super) fn add_rows(sum: &mut [f64], times: &[f64], rows: &[f64]) {
     let rows = rows.chunks_exact((ROWS * width).max(1));
     for (times, rows) in times.iter().zip(rows) {
         let rows: [&[f64]; ROWS] = std::array::from_fn(|r| &rows[r * width..(r + 1) * width]);
+        let [a, b, c, d, e, f] = *times;
+        // A closure per entry would be a call of its own.
         for (i, sum) in sum.iter_mut().enumerate() {
-            let own: [f64; ROWS] = std::array::from_fn(|r| times[r] * rows[r][i]);
-            *sum += ((own[0] + own[1]) + (own[2] + own[3])) + (own[4] + own[5]);
+            let pairs = (a * rows[0][i] + b * rows[1][i]) + (c * rows[2][i] + d * rows[3][i]);
+            *sum += pairs + (e * rows[4][i] + f * rows[5][i]);
         }
     }
 }

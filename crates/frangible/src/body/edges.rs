@@ -9,6 +9,8 @@ pub(crate) struct Edges {
     first: Vec<u32>,
     /// Numbers of the edges of each tetrahedron.
     of_tet: Vec<[u32; 6]>,
+    /// Numbers of the edges of each node, by their other nodes.
+    of_node: Rows,
 }
 
 impl Edges {
@@ -36,7 +38,12 @@ impl Edges {
             }
         }
         first.push(count);
-        Self { first, of_tet }
+        let of_node = of_nodes(&first, neighbours);
+        Self {
+            first,
+            of_tet,
+            of_node,
+        }
     }
 
     /// Number of edges.
@@ -50,11 +57,35 @@ impl Edges {
         self.of_tet[tet as usize]
     }
 
+    /// Numbers of the edges of a node, by their other nodes, rising.
+    #[inline]
+    pub(super) fn around(&self, node: u32) -> &[u32] {
+        self.of_node.of(node)
+    }
+
     /// Number of the first edge whose lower node is this one; the others follow, by their higher nodes.
     #[inline]
     pub(super) fn first(&self, low: u32) -> u32 {
         self.first[low as usize]
     }
+}
+
+/// Numbers of the edges of each node: those from lower nodes, which rise with these, then its own.
+fn of_nodes(first: &[u32], neighbours: &Rows) -> Rows {
+    let nodes = neighbours.count() as u32;
+    let (mut rows, mut row) = (Rows::default(), Vec::new());
+    // Next edge of each lower node: its higher nodes come in order.
+    let mut next = first.to_vec();
+    for v in 0..nodes {
+        row.clear();
+        for &w in neighbours.of(v).iter().take_while(|&&w| w < v) {
+            row.push(next[w as usize]);
+            next[w as usize] += 1;
+        }
+        row.extend(first[v as usize]..first[v as usize + 1]);
+        rows.push(&mut row);
+    }
+    rows.shrunk()
 }
 
 /// The nodes joined to a node that have higher numbers, rising.

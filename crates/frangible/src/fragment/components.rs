@@ -111,7 +111,7 @@ impl Components {
         starts.sort_unstable();
         starts.dedup();
         let count = self.list.len();
-        let mut search = Search::new(self, (cuts, cut_by, index), starts);
+        let mut search = Search::new(self, cut_by, index, starts);
         search.run();
         search.finish();
         self.list.len() > count
@@ -200,7 +200,6 @@ struct Side {
 
 struct Search<'a> {
     known: &'a mut Components,
-    cuts: &'a Cuts,
     cut_by: &'a [u32],
     index: &'a MeshIndex,
     sides: Vec<Side>,
@@ -214,7 +213,8 @@ impl<'a> Search<'a> {
     /// The sides: these nodes and those around them, joined where an uncut edge joins them.
     fn new(
         known: &'a mut Components,
-        (cuts, cut_by, index): (&'a Cuts, &'a [u32], &'a MeshIndex),
+        cut_by: &'a [u32],
+        index: &'a MeshIndex,
         starts: Vec<u32>,
     ) -> Self {
         let mut sets = DisjointSets::new(starts.len());
@@ -224,7 +224,6 @@ impl<'a> Search<'a> {
         let going = vec![0; known.list.len()];
         let mut search = Self {
             known,
-            cuts,
             cut_by,
             index,
             sides: Vec::new(),
@@ -235,16 +234,13 @@ impl<'a> Search<'a> {
         let mut beyond = Vec::new();
         search.known.seen.clone_from(&starts);
         for (place, &v) in (0..).zip(&starts) {
-            let is_cut = search.cuts.touches(v);
-            for &w in index.neighbours.of(v) {
+            for (w, edge) in index.around(v) {
+                if search.parts(w, edge) {
+                    continue;
+                }
                 match search.known.side_of_node[w as usize] {
-                    0 if !search.parts(v, w, is_cut) => beyond.push((search.see(w, place), place)),
-                    0 => {}
-                    other if sets.find(other - 1) == sets.find(place) => {}
-                    _ if search.parts(v, w, is_cut) => {}
-                    other => {
-                        sets.join(place, other - 1);
-                    }
+                    0 => beyond.push((search.see(w, place), place)),
+                    other => _ = sets.join(place, other - 1),
                 }
             }
         }
@@ -281,14 +277,10 @@ impl<'a> Search<'a> {
         self.sets = DisjointSets::new(self.sides.len());
     }
 
-    /// Returns true if a cut parts two nodes that an edge joins; `is_cut`: whether the first has a cut edge.
+    /// Returns true if a cut parts a node from the one at the other end of an edge.
     #[inline]
-    fn parts(&self, v: u32, w: u32, is_cut: bool) -> bool {
-        let cut = |edge: u32| self.cut_by[edge as usize] != EdgeCut::WHOLE;
-        self.known.is_outside(w)
-            || is_cut
-                && self.cuts.touches(w)
-                && self.index.edge(v.min(w), v.max(w)).is_some_and(cut)
+    fn parts(&self, node: u32, edge: u32) -> bool {
+        self.cut_by[edge as usize] != EdgeCut::WHOLE || self.known.is_outside(node)
     }
 
     fn run(&mut self) {
@@ -333,29 +325,39 @@ impl<'a> Search<'a> {
             };
             s.next += 1;
             let index = self.index;
-            let (beside, is_cut, nodes) = if at & PATCH == 0 {
-                (index.neighbours.of(at), self.cuts.touches(at), 1)
+            if at & PATCH == 0 {
+                s.looked_at += 1;
+                left -= 1;
+                for (w, edge) in index.around(at) {
+                    if !self.parts(w, edge) {
+                        side = self.reach(w, side);
+                    }
+                }
             } else {
                 let patch = at & !PATCH;
-                let nodes = index.patches.nodes(patch).len();
-                (index.patches.rim(patch), false, nodes as u32)
-            };
-            s.looked_at += nodes;
-            left = left.saturating_sub(nodes);
-            for &w in beside {
-                match self.known.side_of_node[w as usize] {
-                    0 if !self.parts(at, w, is_cut) => {
-                        let at = self.see(w, side);
-                        self.sides[side as usize].waiting.push(at);
-                    }
-                    other if other > 0 && other - 1 != side && !self.parts(at, w, is_cut) => {
-                        side = self.meet(side, other - 1);
-                    }
-                    _ => {}
+                let nodes = index.patches.nodes(patch).len() as u32;
+                s.looked_at += nodes;
+                left = left.saturating_sub(nodes);
+                for &w in index.patches.rim(patch) {
+                    side = self.reach(w, side);
                 }
             }
         }
         side
+    }
+
+    /// Lets a side see a node; returns the one it is part of afterwards.
+    #[inline]
+    fn reach(&mut self, node: u32, side: u32) -> u32 {
+        match self.known.side_of_node[node as usize] {
+            0 => {
+                let at = self.see(node, side);
+                self.sides[side as usize].waiting.push(at);
+                side
+            }
+            other if other - 1 == side => side,
+            other => self.meet(side, other - 1),
+        }
     }
 
     /// Gives a side a node that nobody has seen, and with it the whole patch where no cut touches that; returns what is to be looked at.

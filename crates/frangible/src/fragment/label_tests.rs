@@ -232,13 +232,16 @@ fn edges_are_numbered_by_their_lower_node_and_then_by_their_higher() {
     let asset = block(4);
     let index = MeshIndex::new(&asset);
     let nodes = 0..asset.fracture.positions.len() as u32;
-    let from = |low: u32| {
-        let all = index.neighbours.of(low).iter();
-        all.filter(move |&&high| low < high)
-            .map(move |&high| [low, high])
-    };
-    let edges: Vec<[u32; 2]> = nodes.flat_map(from).collect();
+    let from = |v: u32| index.around(v).map(move |(w, edge)| ([v, w], edge));
+    let around: Vec<([u32; 2], u32)> = nodes.flat_map(from).collect();
+    assert!(around.is_sorted_by_key(|(ends, _)| *ends));
+    let from_low = around.iter().filter(|([v, w], _)| v < w);
+    let edges: Vec<[u32; 2]> = from_low.map(|(ends, _)| *ends).collect();
     assert!(edges.is_sorted() && edges.len() == index.edges.count());
+    assert_eq!(around.len(), 2 * edges.len());
+    for &([v, w], edge) in &around {
+        assert_eq!(index.edge(v.min(w), v.max(w)), Some(edge));
+    }
     for (number, [low, high]) in (0..).zip(&edges) {
         assert_eq!(index.edge(*low, *high), Some(number));
     }

@@ -121,9 +121,4 @@ impl Cuts {
     pub(crate) fn nodes(&self) -> &[u32] {
         &self.nodes
     }
-
-    /// Returns true if a node has a cut edge.
-    pub(crate) fn touches(&self, node: u32) -> bool {
-        self.touched[node as usize]
-    }
 }

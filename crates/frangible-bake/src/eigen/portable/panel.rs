@@ -1,12 +1,13 @@
 //! Products of panels of eight vectors.
 
-use crate::eigen::panel::{Row, Square, WIDTH, add_multiple, vectorised};
+use crate::eigen::panel::{Row, Square, WIDTH, add_multiple};
 
-/// Vᵀ W.
-pub(crate) fn inner(v: &[Row], w: &[Row]) -> Square {
-    /// Rows of the result that are summed at once.
-    const HALF: usize = WIDTH / 2;
-    vectorised(|| {
+/// Rows of Vᵀ W that are summed at once.
+const HALF: usize = WIDTH / 2;
+
+frangible::widest! {
+    /// Vᵀ W.
+    pub(crate) fn inner(v: &[Row], w: &[Row]) -> Square {
         let mut out = [[0.0; WIDTH]; WIDTH];
         for (half, out) in out.chunks_exact_mut(HALF).enumerate() {
             let mut sums = [[0.0; WIDTH]; HALF];
@@ -18,12 +19,10 @@ pub(crate) fn inner(v: &[Row], w: &[Row]) -> Square {
             out.copy_from_slice(&sums);
         }
         out
-    })
-}
+    }
 
-/// W −= V C.
-pub(crate) fn subtract(w: &mut [Row], v: &[Row], c: &Square) {
-    vectorised(|| {
+    /// W −= V C.
+    pub(crate) fn subtract(w: &mut [Row], v: &[Row], c: &Square) {
         for (w, v) in w.iter_mut().zip(v) {
             let mut sum = [0.0; WIDTH];
             for (factor, c) in v.iter().zip(c) {
@@ -31,12 +30,10 @@ pub(crate) fn subtract(w: &mut [Row], v: &[Row], c: &Square) {
             }
             add_multiple(w, -1.0, &sum);
         }
-    });
-}
+    }
 
-/// W ← W C.
-pub(crate) fn multiply(w: &mut [Row], c: &Square) {
-    vectorised(|| {
+    /// W ← W C.
+    pub(crate) fn multiply(w: &mut [Row], c: &Square) {
         for w in w {
             let mut sum = [0.0; WIDTH];
             for (factor, c) in w.iter().zip(c) {
@@ -44,5 +41,5 @@ pub(crate) fn multiply(w: &mut [Row], c: &Square) {
             }
             *w = sum;
         }
-    });
+    }
 }
