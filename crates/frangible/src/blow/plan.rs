@@ -2,6 +2,7 @@
 //! residual compliance, and the time steps.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use super::Spring;
 use super::bank::{Bank, Pushes, padded, spans};
@@ -11,6 +12,7 @@ use super::wall::{NearPlan, place};
 use crate::body::Body;
 use crate::config::{DurationModel, FractureConfig};
 use crate::contact::{self, Contact, Load, Receptance, Touch, modal_load};
+use crate::near_field::NearShapes;
 
 /// Hertz's time over the longest substep. Measured: the energy error then is 3e-5 of what the striker loses (`frangible-lab verify`, case
 /// `blow`), and falls with the square of the substep.
@@ -302,8 +304,9 @@ fn site(
         site.near = Some(NearPlan {
             oscillators: add_waves(&felt, &bands, oscillators),
             place,
-            wall,
             across: push.across,
+            shapes: Arc::new(NearShapes::new(&wall.material, &bands, place.reach)),
+            wall,
             bands,
             contact_radius,
         });

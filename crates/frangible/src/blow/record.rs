@@ -110,8 +110,7 @@ impl Record {
                 first += oscillators;
                 let mut across: Vec<f32> = force.iter().map(|f| f * near.across as f32).collect();
                 across.resize(near_steps, 0.0);
-                let (place, wall, bands) = (near.place, &near.wall.material, &near.bands);
-                let field = NearField::new(place, wall, bands, &swing, &across);
+                let field = NearField::new(near.place, &near.shapes, &swing, &across);
                 complement.near.push(field);
             }
             let shape = shape.as_ref().map(Arc::clone);

@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 use std::ops::Range;
+use std::sync::Arc;
 
 use glam::Vec3;
 
@@ -9,7 +10,7 @@ use crate::asset::Asset;
 use crate::body::Body;
 use crate::contact::{Touch, WallReceptance};
 use crate::mesh::SurfacePoint;
-use crate::near_field::{Bands, NearField, NearPlace, PlateTheory, WallMaterial};
+use crate::near_field::{Bands, NearField, NearPlace, NearShapes, PlateTheory, WallMaterial};
 
 /// Least distance to the wall's edge for a near field, times its lowest wave number.
 const LEAST_EDGE: f64 = 1.0;
@@ -29,6 +30,7 @@ pub(super) struct NearPlan {
     /// Share of the contact's force, with friction, that acts across the wall.
     pub(super) across: f64,
     pub(super) bands: Bands,
+    pub(super) shapes: Arc<NearShapes>,
     /// Its oscillators among those of the bank.
     pub(super) oscillators: Range<usize>,
     /// Radius a of the contact, m.

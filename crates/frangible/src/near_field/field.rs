@@ -36,6 +36,32 @@ pub(crate) struct NearPlace {
     pub(crate) reach: f64,
 }
 
+/// Shapes of the waves about one contact: their stress per newton over distance.
+#[derive(Debug)]
+pub(crate) struct NearShapes {
+    /// Thickness of the wall, m.
+    thickness: f64,
+    /// Distances, m, rising from 0.
+    radii: Vec<f64>,
+    /// σ_r + σ_θ and σ_θ − σ_r of the far face of everything that follows the force, Pa/N, at each distance.
+    still: Vec<[f64; 2]>,
+    /// The same of each oscillator, per newton of ω² q.
+    swinging: Vec<Vec<[f64; 2]>>,
+}
+
+impl NearShapes {
+    /// The shapes of these bands of a wall, as far as `reach`, m.
+    pub(crate) fn new(wall: &WallMaterial, bands: &Bands, reach: f64) -> Self {
+        let radii = radii(wall.thickness, reach);
+        Self {
+            thickness: wall.thickness,
+            still: bands.following_stress(wall, &radii),
+            swinging: bands.swinging_stress(wall, &radii),
+            radii,
+        }
+    }
+}
+
 /// The near field of one contact.
 #[derive(Clone, Debug)]
 pub(crate) struct NearField {
@@ -62,22 +88,20 @@ impl NearField {
     }
 
     /// `swing`: for each time step ω² q of each oscillator of the bands, N; `force`: on the contact, N.
-    pub(crate) fn new(
-        place: NearPlace,
-        wall: &WallMaterial,
-        bands: &Bands,
-        swing: &[f32],
-        force: &[f32],
-    ) -> Self {
-        let radii = radii(wall.thickness, place.reach);
+    pub(crate) fn new(place: NearPlace, shapes: &NearShapes, swing: &[f32], force: &[f32]) -> Self {
+        let NearShapes {
+            thickness,
+            radii,
+            still,
+            swinging,
+        } = shapes;
+        let thickness = *thickness as f32;
         let steps = force.len();
-        let still = bands.following_stress(wall, &radii);
-        let swinging = bands.swinging_stress(wall, &radii);
         let mut table = [0, 1].map(|_| vec![0.0_f32; radii.len() * steps]);
         fill(
             &mut table,
-            &still,
-            &swinging,
+            still,
+            swinging,
             &by_oscillator(swing, steps),
             force,
         );
@@ -85,11 +109,11 @@ impl NearField {
         table.iter_mut().for_each(|t| t[last..].fill(0.0));
         let end = radii.last().map_or(0.0, |&r| r as f32);
         // Of a place that counts, the distance along the wall is at least the share of the straight one less the depth.
-        let straight = (end + DEEPEST * wall.thickness as f32) / LEAST_SHARE;
+        let straight = (end + DEEPEST * thickness) / LEAST_SHARE;
         let mut field = Self {
             place,
             outermost: straight * straight,
-            thickness: wall.thickness as f32,
+            thickness,
             radii: radii.iter().map(|&r| r as f32).collect(),
             most: Vec::new(),
             table,
@@ -109,9 +133,10 @@ impl NearField {
         };
         // Nothing rests on a point: a patch as wide as the wall is thick.
         let bands = Bands::new(wall, first, wall.thickness, everything_follows);
+        let shapes = NearShapes::new(wall, &bands, place.reach);
         Self {
             steady: true,
-            ..Self::new(place, wall, &bands, &[], &[force])
+            ..Self::new(place, &shapes, &[], &[force])
         }
     }
 

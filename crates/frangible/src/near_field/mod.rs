@@ -52,5 +52,5 @@ mod wall;
 
 pub use crate::config::PlateTheory;
 pub(crate) use bands::{Bands, Spacing};
-pub(crate) use field::{Located, NearField, NearFields, NearPlace};
+pub(crate) use field::{Located, NearField, NearFields, NearPlace, NearShapes};
 pub(crate) use wall::WallMaterial;
