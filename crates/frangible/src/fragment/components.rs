@@ -22,9 +22,6 @@ const TURN: u32 = 32;
 /// Mark in place of a component: a node of another piece.
 const OUTSIDE: u32 = u32::MAX;
 
-/// Flag in a list of nodes to look at: the other bits are the number of a patch.
-const PATCH: u32 = 1 << 31;
-
 /// A connected component.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Component {
@@ -43,15 +40,15 @@ pub(crate) struct Components {
     rank: Vec<u32>,
     /// Component of each node, or [`OUTSIDE`].
     of_node: Vec<u32>,
-    /// True for patches with a node beside a cut: their nodes are looked at one by one.
+    /// True for patches with a node beside a cut, or one from which a search has started: their nodes are looked at one by one.
     is_touched: Vec<bool>,
     /// Number of cuts that were looked at.
     looked_at: usize,
     /// Number of nodes beside cuts that were looked at.
     touched: usize,
-    /// Side plus one that saw each node in a look, 0 for none; all 0 between looks.
-    side_of_node: Vec<u32>,
-    /// Nodes that were seen in the last look.
+    /// Side plus one that saw each [spot](Self::spot) in a look, 0 for none; all 0 between looks.
+    side_of: Vec<u32>,
+    /// Spots that were seen in the last look.
     seen: Vec<u32>,
 }
 
@@ -76,7 +73,7 @@ impl Components {
             is_touched: vec![false; index.patches.count()],
             looked_at: 0,
             touched: 0,
-            side_of_node: vec![0; nodes],
+            side_of: vec![0; nodes + index.patches.count()],
             seen: Vec::new(),
         }
     }
@@ -99,7 +96,7 @@ impl Components {
                 starts.extend_from_slice(first_nodes);
             }
         }
-        for &v in &cuts.nodes()[self.touched..] {
+        for &v in starts.iter().chain(&cuts.nodes()[self.touched..]) {
             self.is_touched[index.patches.of_node(v) as usize] = true;
         }
         self.touched = cuts.nodes().len();
@@ -134,7 +131,17 @@ impl Components {
         self.rank[self.of_node[node as usize] as usize]
     }
 
-    /// Number of nodes that were seen in the last look.
+    /// Spot that a search sees where it sees a node: the node itself, or the whole patch if no cut touches that. Patches are numbered after the nodes.
+    #[inline]
+    fn spot(&self, node: u32, index: &MeshIndex) -> u32 {
+        let patch = index.patches.of_node(node);
+        match self.is_touched[patch as usize] {
+            true => node,
+            false => index.nodes() as u32 + patch,
+        }
+    }
+
+    /// Number of spots that were seen in the last look.
     #[cfg(test)]
     pub(super) fn cost(&self) -> usize {
         self.seen.len()
@@ -160,16 +167,18 @@ impl Components {
         let before = self.list.len();
         let (lowest, volume) = (u32::MAX, 0);
         self.list.resize(before + new, Component { lowest, volume });
-        for &v in &self.seen {
-            let Some(number) = parted(self.side_of_node[v as usize] - 1) else {
+        for spot in &self.seen {
+            let Some(number) = parted(self.side_of[*spot as usize] - 1) else {
                 continue;
             };
-            let own = std::mem::replace(&mut self.of_node[v as usize], before as u32 + number);
-            let volume = index.volumes[v as usize];
-            self.list[own as usize].volume -= volume;
-            let component = &mut self.list[before + number as usize];
-            component.lowest = component.lowest.min(v);
-            component.volume += volume;
+            for &v in nodes_of(spot, index) {
+                let own = std::mem::replace(&mut self.of_node[v as usize], before as u32 + number);
+                let volume = index.volumes[v as usize];
+                self.list[own as usize].volume -= volume;
+                let component = &mut self.list[before + number as usize];
+                component.lowest = component.lowest.min(v);
+                component.volume += volume;
+            }
         }
         for (component, number) in self.list[..before].iter_mut().zip(0..) {
             let mut from = component.lowest as usize..self.of_node.len();
@@ -185,12 +194,20 @@ impl Components {
     }
 }
 
+/// Nodes of a [spot](Components::spot).
+fn nodes_of<'a>(spot: &'a u32, index: &'a MeshIndex) -> &'a [u32] {
+    match spot.checked_sub(index.nodes() as u32) {
+        None => std::slice::from_ref(spot),
+        Some(patch) => index.patches.nodes(patch),
+    }
+}
+
 /// Nodes seen from one place beside new cuts.
 #[derive(Clone, Debug, Default)]
 struct Side {
     /// Component that it lies in.
     component: u32,
-    /// Nodes and [patches](PATCH) seen and not looked at, from `next` on.
+    /// [Spots](Components::spot) seen and not looked at, from `next` on.
     waiting: Vec<u32>,
     next: usize,
     /// Number of nodes that were looked at.
@@ -219,7 +236,7 @@ impl<'a> Search<'a> {
     ) -> Self {
         let mut sets = DisjointSets::new(starts.len());
         for (place, &v) in (1..).zip(&starts) {
-            known.side_of_node[v as usize] = place;
+            known.side_of[v as usize] = place;
         }
         let going = vec![0; known.list.len()];
         let mut search = Self {
@@ -230,7 +247,7 @@ impl<'a> Search<'a> {
             sets: DisjointSets::new(0),
             going,
         };
-        // What the starts see: nodes and patches, each with the start that saw it first.
+        // What the starts see, each with the start that saw it first.
         let mut beyond = Vec::new();
         search.known.seen.clone_from(&starts);
         for (place, &v) in (0..).zip(&starts) {
@@ -238,8 +255,12 @@ impl<'a> Search<'a> {
                 if search.parts(w, edge) {
                     continue;
                 }
-                match search.known.side_of_node[w as usize] {
-                    0 => beyond.push((search.see(w, place), place)),
+                let spot = search.known.spot(w, index);
+                match search.known.side_of[spot as usize] {
+                    0 => {
+                        search.see(spot, place);
+                        beyond.push((spot, place));
+                    }
                     other => _ = sets.join(place, other - 1),
                 }
             }
@@ -266,13 +287,13 @@ impl<'a> Search<'a> {
             side_of_start.push(*side);
         }
         let known = &mut *self.known;
-        for &v in &known.seen {
-            let side = &mut known.side_of_node[v as usize];
+        for &spot in &known.seen {
+            let side = &mut known.side_of[spot as usize];
             *side = side_of_start[*side as usize - 1] + 1;
         }
-        for (at, start) in beyond {
+        for (spot, start) in beyond {
             let side = side_of_start[start as usize];
-            self.sides[side as usize].waiting.push(at);
+            self.sides[side as usize].waiting.push(spot);
         }
         self.sets = DisjointSets::new(self.sides.len());
     }
@@ -325,21 +346,23 @@ impl<'a> Search<'a> {
             };
             s.next += 1;
             let index = self.index;
-            if at & PATCH == 0 {
-                s.looked_at += 1;
-                left -= 1;
-                for (w, edge) in index.around(at) {
-                    if !self.parts(w, edge) {
-                        side = self.reach(w, side);
+            match at.checked_sub(index.nodes() as u32) {
+                None => {
+                    s.looked_at += 1;
+                    left -= 1;
+                    for (w, edge) in index.around(at) {
+                        if !self.parts(w, edge) {
+                            side = self.reach(w, side);
+                        }
                     }
                 }
-            } else {
-                let patch = at & !PATCH;
-                let nodes = index.patches.nodes(patch).len() as u32;
-                s.looked_at += nodes;
-                left = left.saturating_sub(nodes);
-                for &w in index.patches.rim(patch) {
-                    side = self.reach(w, side);
+                Some(patch) => {
+                    let nodes = index.patches.nodes(patch).len() as u32;
+                    s.looked_at += nodes;
+                    left = left.saturating_sub(nodes);
+                    for &w in index.patches.rim(patch) {
+                        side = self.reach(w, side);
+                    }
                 }
             }
         }
@@ -349,10 +372,11 @@ impl<'a> Search<'a> {
     /// Lets a side see a node; returns the one it is part of afterwards.
     #[inline]
     fn reach(&mut self, node: u32, side: u32) -> u32 {
-        match self.known.side_of_node[node as usize] {
+        let spot = self.known.spot(node, self.index);
+        match self.known.side_of[spot as usize] {
             0 => {
-                let at = self.see(node, side);
-                self.sides[side as usize].waiting.push(at);
+                self.see(spot, side);
+                self.sides[side as usize].waiting.push(spot);
                 side
             }
             other if other - 1 == side => side,
@@ -360,21 +384,11 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Gives a side a node that nobody has seen, and with it the whole patch where no cut touches that; returns what is to be looked at.
+    /// Gives a side a spot that nobody has seen.
     #[inline]
-    fn see(&mut self, node: u32, side: u32) -> u32 {
-        let known = &mut *self.known;
-        let patch = self.index.patches.of_node(node);
-        let is_touched = known.is_touched[patch as usize];
-        let nodes = match is_touched {
-            true => std::slice::from_ref(&node),
-            false => self.index.patches.nodes(patch),
-        };
-        for &v in nodes {
-            known.side_of_node[v as usize] = side + 1;
-        }
-        known.seen.extend_from_slice(nodes);
-        if is_touched { node } else { PATCH | patch }
+    fn see(&mut self, spot: u32, side: u32) {
+        self.known.side_of[spot as usize] = side + 1;
+        self.known.seen.push(spot);
     }
 
     fn meet(&mut self, a: u32, b: u32) -> u32 {
@@ -406,8 +420,8 @@ impl<'a> Search<'a> {
             let parted = |side| numbers[sets.find(side) as usize];
             self.known.part(self.index, new as usize, parted);
         }
-        for &v in &self.known.seen {
-            self.known.side_of_node[v as usize] = 0;
+        for &spot in &self.known.seen {
+            self.known.side_of[spot as usize] = 0;
         }
     }
 }
