@@ -105,7 +105,9 @@ impl Bank {
     #[inline(always)]
     pub(super) fn coast(&self, state: &mut BankState, pushes: &Pushes<'_>, forces: &[f64]) {
         let count = state.x.len();
-        let [a, b, c, d] = self.own.each_ref().map(|row| &row[..count]);
+        // Written out: `array::map` would be a call of its own.
+        let [a, b, c, d] = &self.own;
+        let (a, b, c, d) = (&a[..count], &b[..count], &c[..count], &d[..count]);
         let (x, v) = (&mut state.x[..count], &mut state.v[..count]);
         for i in 0..count {
             let (old_x, old_v) = (x[i], v[i]);
@@ -130,7 +132,7 @@ impl Bank {
             }
             for span in spans {
                 let drive = &drive[span.clone()];
-                let [on_x, on_v] = by.each_ref().map(|row| &row[span.clone()]);
+                let (on_x, on_v) = (&by[0][span.clone()], &by[1][span.clone()]);
                 let (x, v) = (&mut state.x[span.clone()], &mut state.v[span.clone()]);
                 for i in 0..drive.len() {
                     let push = drive[i] * force;
@@ -145,7 +147,7 @@ impl Bank {
     #[inline(always)]
     pub(super) fn hold(&self, state: &mut BankState, first: usize, forces: &[f64], factor: f64) {
         let span = first..first + forces.len();
-        let [on_x, on_v] = self.held.each_ref().map(|row| &row[span.clone()]);
+        let (on_x, on_v) = (&self.held[0][span.clone()], &self.held[1][span.clone()]);
         let (x, v) = (&mut state.x[span.clone()], &mut state.v[span]);
         for i in 0..forces.len() {
             let push = factor * forces[i];

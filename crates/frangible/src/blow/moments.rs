@@ -4,6 +4,7 @@ use glam::{DMat3, DVec3};
 
 use super::groups::Groups;
 use super::parted::{SIX, outer};
+use crate::asset::Asset;
 use crate::body::Body;
 
 /// Properties of a group that are known from an earlier parting.
@@ -112,12 +113,21 @@ impl Moments {
                 *moment += m * way;
             }
         }
+        touched.sort_unstable();
+        let take = |&node: &u32| (node, std::mem::take(&mut of_node[node as usize]));
+        let sums: Vec<_> = touched.iter().map(take).collect();
+        project(asset, modes, &sums)
+    }
+}
+
+widest! {
+    /// Projections on each mode of six motions with these masses and moments at nodes, kg and kg·m: six rows of modes.
+    fn project(asset: &Asset, modes: usize, sums: &[(u32, (f64, DVec3))]) -> Vec<f64> {
         let mut held = vec![0.0; SIX * modes];
         let [x, y, z, rx, ry, rz] = rows_of(&mut held, modes);
-        touched.sort_unstable();
-        for node in touched {
-            let (m, s) = std::mem::take(&mut of_node[node as usize]);
-            let [a, b, c] = asset.modes.rows(node as usize).map(|row| &row[..modes]);
+        for &(node, (m, s)) in sums {
+            let [a, b, c] = asset.modes.rows(node as usize);
+            let (a, b, c) = (&a[..modes], &b[..modes], &c[..modes]);
             for i in 0..modes {
                 let (a, b, c) = (f64::from(a[i]), f64::from(b[i]), f64::from(c[i]));
                 x[i] += m * a;
@@ -135,7 +145,10 @@ impl Moments {
 /// Six rows of a list.
 fn rows_of(list: &mut [f64], width: usize) -> [&mut [f64]; SIX] {
     let mut rows = list.chunks_exact_mut(width.max(1));
-    std::array::from_fn(|_| rows.next().unwrap_or_default())
+    std::array::from_fn(|_| match rows.next() {
+        Some(row) => &mut row[..width],
+        None => &mut [],
+    })
 }
 
 /// Push of a force on the mass-normalised rigid motions of a free body; zeros for a held one.

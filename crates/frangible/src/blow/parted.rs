@@ -24,7 +24,7 @@ use super::faces::{Corner, corners};
 use super::groups::Groups;
 use super::moments::{Known, Moments, rigid_parts, rigid_push};
 use super::plan::Plan;
-use super::solve::{add_products, factor, is_positive, lower, mirror};
+use super::solve::{factor, is_positive, mirror, squares};
 use crate::body::Body;
 
 /// Shares of the pieces' own masses that are added to M; the first with which M is positive definite is used. Without them M may not be, since masses
@@ -83,13 +83,10 @@ impl Parted {
             }
         }
         let rigid = rigid_parts(body, &moments);
-        let mut mass = vec![0.0; n * n];
-        for (j, row) in mass.chunks_exact_mut(n.max(1)).enumerate() {
-            let own = &held[j * plan.modes..(j + 1) * plan.modes];
-            add_products(&mut row[..lower(j)], &held, own);
-            add_products(&mut row[..lower(j)], rigid.as_flattened(), &rigid[j]);
-            row.iter_mut().for_each(|sum| *sum = -*sum);
-        }
+        let by_modes = squares(&held, n, &vec![1.0; plan.modes]);
+        let by_rigid = squares(rigid.as_flattened(), n, &[1.0; SIX]);
+        let sums = by_modes.iter().zip(&by_rigid);
+        let mut mass: Vec<f64> = sums.map(|(modes, rigid)| -(modes + rigid)).collect();
         mirror(&mut mass, n);
         let mut own = vec![0.0; n * n];
         for (g, moment) in moments.iter().enumerate() {

@@ -92,8 +92,31 @@ pub(super) fn add_rows(sum: &mut [f64], times: &[f64], rows: &[f64]) {
     }
 }
 
+widest! {
+    /// R diag(w) Rᵀ for a matrix R of n rows, of which the blocks up to the diagonal are computed: [`mirror`] fills in the rest.
+    pub(super) fn squares(rows: &[f64], n: usize, weights: &[f64]) -> Vec<f64> {
+        let width = weights.len();
+        let mut squares = vec![0.0; n * n];
+        let mut weighted = vec![0.0; width];
+        for j in 0..n {
+            let row = &rows[j * width..(j + 1) * width];
+            for ((to, x), weight) in weighted.iter_mut().zip(row).zip(weights) {
+                *to = x * weight;
+            }
+            add_products(&mut squares[j * n..j * n + lower(j)], rows, &weighted);
+        }
+        squares
+    }
+
+    /// Inverse of a symmetric, positive definite matrix.
+    pub(super) fn inverse(matrix: Vec<f64>, n: usize) -> Vec<f64> {
+        inverse_of_factor(&factor(matrix, n), n)
+    }
+}
+
 /// Inverse of the matrix of this Cholesky factor.
-pub(super) fn inverse(factor: &[f64], n: usize) -> Vec<f64> {
+#[inline(always)]
+fn inverse_of_factor(factor: &[f64], n: usize) -> Vec<f64> {
     let mut inverse = vec![0.0; n * n];
     for (k, column) in inverse.chunks_exact_mut(n.max(1)).enumerate() {
         column[k] = 1.0;
@@ -125,8 +148,9 @@ pub(super) fn solve(factor: &[f64], x: &mut [f64]) {
     }
 }
 
-/// End of the part of a symmetric matrix's row that is computed: [`mirror`] fills in the rest.
-pub(super) fn lower(row: usize) -> usize {
+/// End of the part of a symmetric matrix's row that is computed.
+#[inline(always)]
+fn lower(row: usize) -> usize {
     ROWS * (row / ROWS + 1)
 }
 
@@ -160,7 +184,7 @@ mod tests {
         let near = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12);
         assert!(near(&products, &b));
         let mut again = vec![0.0; n];
-        add_rows(&mut again, &b, &inverse(&l, n));
+        add_rows(&mut again, &b, &inverse_of_factor(&l, n));
         assert!(near(&again, &x));
         matrix[3 * n + 3] = -1.0;
         assert!(!is_positive(&factor(matrix.clone(), n), n));

@@ -3,7 +3,7 @@
 use super::bank::Bank;
 use super::parted::Parted;
 use super::plan::Plan;
-use super::solve::{add, add_products, add_rows, dot, factor, inverse, lower, mirror, solve};
+use super::solve::{add, add_products, add_rows, dot, factor, inverse, mirror, solve, squares};
 
 /// Solver of ticks of one length. The corners that press form a system of their own, with one unknown each: with C the matrix without corners, the
 /// unknowns of the pieces are `C⁻¹b + Σ y μ`, `y = C⁻¹g`, and `(1/2κ + gᵀy) μ = −e/2` gives the corners' forces μ, e the gaps at the end of the tick
@@ -82,22 +82,12 @@ impl Solver {
             w * w * (1.0 - taken).max(0.0)
         });
         let springs: Vec<f64> = springs.collect();
-        let mut stiffness = vec![0.0; n * n];
-        let mut weighted = vec![0.0; plan.modes];
-        for j in 0..n {
-            let terms = weighted.iter_mut().zip(parted.row(j)).zip(&springs);
-            terms.for_each(|((to, p), spring)| *to = p * spring);
-            add_products(
-                &mut stiffness[j * n..j * n + lower(j)],
-                &parted.held,
-                &weighted,
-            );
-        }
+        let mut stiffness = squares(&parted.held, n, &springs);
         mirror(&mut stiffness, n);
         let inertia = 4.0 / (tick * tick) + 2.0 * beta / tick;
         let sums = parted.mass.iter().zip(&stiffness);
         let sums = sums.map(|(m, s)| m * inertia + (1.0 + 2.0 * alpha) * s);
-        let inverse = inverse(&factor(sums.collect(), n), n);
+        let inverse = inverse(sums.collect(), n);
         let growth = |(z, drive): (&[f64], &Vec<f64>)| {
             let swing = bank.ramp_by(first..first + plan.modes, drive);
             let swing = swing.zip(&plan.oscillators);

@@ -248,8 +248,12 @@ fn products(
     let modes = amplitudes.len();
     let (blocks, highest) = amplitudes.as_chunks::<BLOCK>();
     let first = blocks.len() * BLOCK;
-    let [[x, y, z], [u, v, w]] = nodes.map(|node| asset.modes.rows(node));
-    let sums = nodes.map(|node| following(asset, node, residuals));
+    let [[x, y, z], [u, v, w]] = [asset.modes.rows(nodes[0]), asset.modes.rows(nodes[1])];
+    // `array::map` would be a call of its own.
+    let sums = [
+        following(asset, nodes[0], residuals),
+        following(asset, nodes[1], residuals),
+    ];
     let ends = first..modes;
     let [a, b, c] = add_block(
         [&x[ends.clone()], &y[ends.clone()], &z[ends.clone()]],

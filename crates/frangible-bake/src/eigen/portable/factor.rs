@@ -28,7 +28,7 @@ frangible::widest! {
         }
         spread(symbolic, &owner, place, matrix, values);
         let (mut update, mut rows) = (Vec::new(), Vec::new());
-        (0..symbolic.n_supernodes()).all(|s| {
+        for s in 0..symbolic.n_supernodes() {
             let from = symbolic.col_ptr_for_val()[s];
             let width = symbolic.supernode_end()[s] - symbolic.supernode_begin()[s];
             let pattern = symbolic.supernode(s).pattern();
@@ -61,8 +61,8 @@ frangible::widest! {
                 );
                 first += columns;
             }
-            true
-        })
+        }
+        true
     }
 }
 

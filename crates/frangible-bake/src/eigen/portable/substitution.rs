@@ -21,7 +21,7 @@ frangible::widest! {
             let height = width + pattern.len();
             for j in 0..width {
                 let column = &panel[j * height..][..width];
-                let solved = own[j].map(|x| x / column[j]);
+                let solved = quotient(&own[j], column[j]);
                 own[j] = solved;
                 for (x, factor) in own[j + 1..].iter_mut().zip(&column[j + 1..]) {
                     add_multiple(x, -factor, &solved);
@@ -66,10 +66,20 @@ frangible::widest! {
                 for (x, factor) in own[j + 1..].iter().zip(&column[j + 1..]) {
                     add_multiple(&mut rest, -factor, x);
                 }
-                own[j] = rest.map(|x| x / column[j]);
+                own[j] = quotient(&rest, column[j]);
             }
         }
     }
+}
+
+/// row / by.
+#[inline(always)]
+fn quotient(row: &Row, by: f64) -> Row {
+    let mut quotient = *row;
+    for x in &mut quotient {
+        *x /= by;
+    }
+    quotient
 }
 
 /// N columns below the square of a supernode, if there are as many.
