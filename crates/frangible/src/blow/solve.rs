@@ -47,6 +47,20 @@ pub(super) fn add(a: &mut [f64], times: f64, b: &[f64]) {
 /// Rows that are multiplied at once; the number of rows is a multiple.
 const ROWS: usize = 6;
 
+/// Rows of a list of six. Written out, here and where they are used: `array::map` and its kind would be calls of their own, which are compiled for
+/// the plain processor.
+#[inline(always)]
+fn six(rows: &[f64], width: usize) -> [&[f64]; ROWS] {
+    [
+        &rows[..width],
+        &rows[width..2 * width],
+        &rows[2 * width..3 * width],
+        &rows[3 * width..4 * width],
+        &rows[4 * width..5 * width],
+        &rows[5 * width..6 * width],
+    ]
+}
+
 /// Adds the products of a matrix's rows with x to a list.
 #[inline(always)]
 pub(super) fn add_products(sums: &mut [f64], rows: &[f64], x: &[f64]) {
@@ -54,8 +68,16 @@ pub(super) fn add_products(sums: &mut [f64], rows: &[f64], x: &[f64]) {
     let (sums, _) = sums.as_chunks_mut::<ROWS>();
     let rows = rows.chunks_exact((ROWS * x.len()).max(1));
     for (sums, rows) in sums.iter_mut().zip(rows) {
-        let rows: [&[f64]; ROWS] = std::array::from_fn(|r| &rows[r * x.len()..(r + 1) * x.len()]);
-        let in_lanes = rows.map(|row| &row.as_chunks::<4>().0[..lanes.len()]);
+        let rows = six(rows, x.len());
+        let [a, b, c, d, e, f] = rows;
+        let in_lanes = [
+            &a.as_chunks::<4>().0[..lanes.len()],
+            &b.as_chunks::<4>().0[..lanes.len()],
+            &c.as_chunks::<4>().0[..lanes.len()],
+            &d.as_chunks::<4>().0[..lanes.len()],
+            &e.as_chunks::<4>().0[..lanes.len()],
+            &f.as_chunks::<4>().0[..lanes.len()],
+        ];
         let mut of_lanes = [[0.0; 4]; ROWS];
         for (i, x) in lanes.iter().enumerate() {
             for (sum, row) in of_lanes.iter_mut().zip(in_lanes) {
@@ -82,9 +104,8 @@ pub(super) fn add_rows(sum: &mut [f64], times: &[f64], rows: &[f64]) {
     let (times, _) = times.as_chunks::<ROWS>();
     let rows = rows.chunks_exact((ROWS * width).max(1));
     for (times, rows) in times.iter().zip(rows) {
-        let rows: [&[f64]; ROWS] = std::array::from_fn(|r| &rows[r * width..(r + 1) * width]);
+        let rows = six(rows, width);
         let [a, b, c, d, e, f] = *times;
-        // A closure per entry would be a call of its own.
         for (i, sum) in sum.iter_mut().enumerate() {
             let pairs = (a * rows[0][i] + b * rows[1][i]) + (c * rows[2][i] + d * rows[3][i]);
             *sum += pairs + (e * rows[4][i] + f * rows[5][i]);

@@ -41,6 +41,15 @@ impl Entries<'_> {
     fn at(self, row: usize, column: usize) -> f64 {
         self.data[row * self.down + column * self.across]
     }
+
+    /// The matrix from this column on.
+    #[inline(always)]
+    fn from_column(self, column: usize) -> Self {
+        Self {
+            data: &self.data[(column * self.across).min(self.data.len())..],
+            ..self
+        }
+    }
 }
 
 /// to += sign · a b, where `a` has `rows` × `inner` numbers; `to` and `a` are stored column after column, this far apart.
@@ -54,10 +63,7 @@ pub(crate) fn add_product(
 ) {
     for first in (0..columns).step_by(WIDE) {
         let to = &mut to[first * to_stride..];
-        let b = Entries {
-            data: &b.data[(first * b.across).min(b.data.len())..],
-            ..b
-        };
+        let b = b.from_column(first);
         let wide = WIDE.min(columns - first);
         let tall = rows - rows % TALL;
         for row in (0..tall).step_by(TALL) {
@@ -67,37 +73,17 @@ pub(crate) fn add_product(
                 continue;
             }
             for column in 0..wide {
-                column_of(column, b, |b| {
-                    tile::<TALL, 1>(
-                        &mut to[column * to_stride..],
-                        0,
-                        a,
-                        a_stride,
-                        b,
-                        inner,
-                        sign,
-                    );
-                });
+                let (to, b) = (&mut to[column * to_stride..], b.from_column(column));
+                tile::<TALL, 1>(to, 0, a, a_stride, b, inner, sign);
             }
         }
         for row in tall..rows {
             for column in 0..wide {
-                column_of(column, b, |b| {
-                    let to = &mut to[column * to_stride + row..];
-                    tile::<1, 1>(to, 0, &a[row..], a_stride, b, inner, sign);
-                });
+                let (to, b) = (&mut to[column * to_stride + row..], b.from_column(column));
+                tile::<1, 1>(to, 0, &a[row..], a_stride, b, inner, sign);
             }
         }
     }
-}
-
-/// Hands on a matrix from this column on.
-#[inline(always)]
-fn column_of<'a>(column: usize, b: Entries<'a>, then: impl FnOnce(Entries<'a>)) {
-    then(Entries {
-        data: &b.data[(column * b.across).min(b.data.len())..],
-        ..b
-    });
 }
 
 /// M rows and N columns of the product.
