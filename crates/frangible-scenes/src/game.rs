@@ -118,7 +118,7 @@ pub fn play_as_game(
             parts += *stage.world.timings();
             for event in stage.world.breaks() {
                 // A body that is cracked and whole has a portion, too.
-                match event.asset.portion().map_or(0, |p| p.generation()) {
+                match event.generation() {
                     0 => run.breaks += 1,
                     _ => run.again += 1,
                 }

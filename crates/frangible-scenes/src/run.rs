@@ -116,7 +116,7 @@ pub fn play(
                 let Some((body, name)) = known.remove(&event.parent.into_raw_parts()) else {
                     continue;
                 };
-                let generation = event.asset.portion().map_or(0, |p| p.generation());
+                let generation = event.generation();
                 recorder.broke(
                     world,
                     &name,

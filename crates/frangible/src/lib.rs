@@ -27,6 +27,7 @@ mod config;
 mod contact;
 mod crack;
 mod cracking;
+mod dice;
 mod error;
 mod fields;
 mod fragment;
@@ -43,6 +44,7 @@ mod rigid;
 mod rng;
 mod state;
 mod stress;
+mod temper;
 mod tips;
 mod trace;
 

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// From the lowest to the highest. `mesh` and `material` are crates of their own, below all of them.
-const ORDER: [&str; 26] = [
+const ORDER: [&str; 28] = [
     "error",
     "rng",
     "vectors",
@@ -18,11 +18,13 @@ const ORDER: [&str; 26] = [
     "motion",
     "tips",
     "bounds",
+    "temper",
     "body",
     "contact",
     "crack",
     "blow",
     "fragment",
+    "dice",
     "outcome",
     "piece",
     "refuse",
