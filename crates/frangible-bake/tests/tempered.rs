@@ -337,3 +337,47 @@ fn an_asset_keeps_its_residual_stress_in_a_file() {
     let read = Asset::from_bytes(&plain).expect("a sound file");
     assert_eq!(read.material().residual_stress.to_bits(), 0);
 }
+
+/// Time that this thread has had, ms: other programs do not count. Of Linux only.
+fn spent() -> f64 {
+    let spent = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
+    let nanoseconds = spent.split(' ').next().and_then(|n| n.parse::<f64>().ok());
+    1e-6 * nanoseconds.unwrap_or(0.0)
+}
+
+/// Run it alone, with `--ignored --nocapture`.
+#[test]
+#[ignore = "a measurement"]
+fn cost_of_a_break() {
+    let bent = PaneShape {
+        size: [0.84, 0.48, THICK],
+        corner: 0.06,
+        bow: 0.03,
+    };
+    let glass = material("tempered-glass");
+    let window = baked(Shape::Pane(bent), &glass);
+    let door = baked(Shape::plate(0.7, 1.85, 8e-3), &glass);
+    for (name, asset) in [("side window", window), ("shower door", door)] {
+        let kind = Breakable::new(asset).expect("a wall");
+        let mut times = Vec::new();
+        for seed in 0..15 {
+            let body = kind.body(seed);
+            let top = body.nearest_on_surface(Vec3::new(0.1, 0.05, 1.0)).position;
+            let ball = Striker::ball(&glass, 0.6, 0.0264);
+            let contact = Contact::collision(body.asset(), top, Vec3::NEG_Z, 40.0, ball);
+            let start = spent();
+            let fracture = broken(&body, contact);
+            times.push(spent() - start);
+            if seed == 0 {
+                let dice: usize = clumps(&fracture).map(|clump| clump.count()).sum();
+                let triangles = fracture.fragments.iter().map(|f| f.mesh.triangles.len());
+                println!(
+                    "{name}: {dice} dice, {} triangles",
+                    triangles.sum::<usize>()
+                );
+            }
+        }
+        times.sort_by(f64::total_cmp);
+        println!("{name}: {:.1} ms, {:.1} at best", times[7], times[0]);
+    }
+}

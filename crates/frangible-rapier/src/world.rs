@@ -99,7 +99,7 @@ pub(crate) struct State {
     /// Time since when each piece sleeps, s.
     pub(crate) asleep: BTreeMap<Key, f64>,
     pub(crate) rubble: Rubbles,
-    /// Clumps of dice that may part.
+    /// Clumps of dice.
     pub(crate) clumps: BTreeMap<Key, WorldClump>,
     /// Those of them that were hit, in this order.
     pub(crate) parting: VecDeque<RigidBodyHandle>,

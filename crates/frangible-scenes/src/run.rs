@@ -112,7 +112,14 @@ pub fn play(
                 }
             }
             for event in world.breaks() {
-                fine_until = frame + FINE_FRAMES;
+                // Clumps of dice that part do so without a blow.
+                if event
+                    .fracture
+                    .clump(0)
+                    .is_none_or(|clump| clump.generation() == 1)
+                {
+                    fine_until = frame + FINE_FRAMES;
+                }
                 let Some((body, name)) = known.remove(&event.parent.into_raw_parts()) else {
                     continue;
                 };

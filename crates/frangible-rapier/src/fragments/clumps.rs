@@ -2,7 +2,8 @@
 //!
 //! A clump parts after the step in which contacts change its motion by [`WorldConfig::impact_speed`](crate::WorldConfig::impact_speed) or more, into
 //! [`PARTS`] smaller clumps with the motion that it has then, so momentum, angular momentum and energy stay as they are. Nothing has to be found out
-//! by the fracture model. What may break again at all is limited as for other pieces: by generations, mass, and the largest number of bodies.
+//! by the fracture model. Clumps part until there are [`WorldConfig::max_clumps`](crate::WorldConfig::max_clumps), or until they are lighter than
+//! [`PieceConfig::least_mass`](crate::PieceConfig::least_mass).
 
 use std::sync::Arc;
 
@@ -27,44 +28,61 @@ pub(crate) struct WorldClump {
     clump: Arc<Clump>,
     /// Asset of the wall.
     asset: Arc<Asset>,
+    /// True if it is large enough to part.
+    parts: bool,
 }
 
 impl BreakableWorld {
-    /// Notes which fragments are clumps that may part.
+    /// Notes which fragments are clumps.
     pub(crate) fn note_clumps(
         &mut self,
         asset: &Arc<Asset>,
         fracture: &Fracture,
         fragments: &[RigidBodyHandle],
     ) {
-        let limits = &self.config.pieces;
+        let least = f64::from(self.config.pieces.least_mass);
         for (k, (&handle, fragment)) in fragments.iter().zip(&fracture.fragments).enumerate() {
             let Some(clump) = fracture.clump(k) else {
                 return;
             };
-            let parts = clump.count() > 1
-                && clump.generation() < limits.generations
-                && fragment.mass.mass >= f64::from(limits.least_mass);
-            if parts {
-                let (clump, asset) = (Arc::clone(clump), Arc::clone(asset));
-                let clump = WorldClump { clump, asset };
-                self.state.clumps.insert(key(handle), clump);
-            }
+            let clump = WorldClump {
+                clump: Arc::clone(clump),
+                asset: Arc::clone(asset),
+                parts: clump.count() > 1 && fragment.mass.mass >= least,
+            };
+            self.state.clumps.insert(key(handle), clump);
         }
     }
 
     /// Parts the clumps that were hit in the step just taken, and those that have waited.
     pub(crate) fn part_clumps(&mut self) {
-        let hit: Vec<RigidBodyHandle> = (self.state.clumps.keys())
-            .map(|&(index, generation)| RigidBodyHandle::from_raw_parts(index, generation))
+        let clumps = self.state.clumps.iter().filter(|(_, clump)| clump.parts);
+        let hit: Vec<RigidBodyHandle> = clumps
+            .map(|(&(index, generation), _)| RigidBodyHandle::from_raw_parts(index, generation))
             .filter(|&handle| !self.state.parting.contains(&handle) && self.was_hit(handle))
             .collect();
         self.state.parting.extend(hit);
+        // The largest first, so that the room is not used up for parting what has parted already.
+        let clumps = &self.state.clumps;
+        let count =
+            |handle: &RigidBodyHandle| clumps.get(&key(*handle)).map_or(0, |c| c.clump.count());
+        let order = |a: &RigidBodyHandle, b: &RigidBodyHandle| {
+            count(b).cmp(&count(a)).then(key(*a).cmp(&key(*b)))
+        };
+        self.state.parting.make_contiguous().sort_by(order);
         for _ in 0..MOST {
             let Some(handle) = self.state.parting.pop_front() else {
                 return;
             };
-            if let Some(clump) = self.state.clumps.remove(&key(handle)) {
+            let room = self.state.clumps.len() + PARTS <= self.config.max_clumps + 1
+                && self.body_count() + PARTS <= self.config.max_bodies;
+            if let Some(clump) = self
+                .state
+                .clumps
+                .get(&key(handle))
+                .cloned()
+                .filter(|_| room)
+            {
                 self.part_clump(handle, &clump);
             }
         }
@@ -86,9 +104,6 @@ impl BreakableWorld {
         let Some(parent) = self.physics.bodies.get(handle).cloned() else {
             return;
         };
-        if self.body_count() + PARTS > self.config.max_bodies {
-            return;
-        }
         let fracture = clump.clump.parted(PARTS);
         let Ok(parts) = Parts::new(&fracture, &self.config) else {
             return;
@@ -97,6 +112,7 @@ impl BreakableWorld {
             fragments,
             released,
         } = self.replace(handle, &parts);
+        self.state.clumps.remove(&key(handle));
         let surface = self.state.surfaces.remove(&key(handle));
         let now = self.time();
         for (&piece, fragment) in fragments.iter().zip(&fracture.fragments) {

@@ -96,7 +96,10 @@ impl Clump {
 
     /// Part of each die: that of the nearest of some dice drawn by the seed, along the network.
     fn labels(&self, into: usize) -> Vec<u32> {
-        let place = |die: u32| self.dice.binary_search(&die).ok();
+        let mut place_of = vec![NONE; self.network.dice.len()];
+        for (place, &die) in (0..).zip(&self.dice) {
+            place_of[die as usize] = place;
+        }
         let mut labels = vec![NONE; self.dice.len()];
         let mut queue = VecDeque::new();
         let first = self.dice.first().copied().unwrap_or(0);
@@ -110,8 +113,9 @@ impl Clump {
             queue.push_back(order[i] as usize);
         }
         while let Some(at) = queue.pop_front() {
-            for beside in self.network.neighbours(self.dice[at]).filter_map(place) {
-                if labels[beside] == NONE {
+            for beside in self.network.neighbours(self.dice[at]) {
+                let beside = place_of[beside as usize] as usize;
+                if labels.get(beside) == Some(&NONE) {
                     labels[beside] = labels[at];
                     queue.push_back(beside);
                 }
@@ -128,8 +132,10 @@ impl Clump {
     fn fragment(&self, dice: &[u32], label_of: &[u32], vertex_of: &mut [u32]) -> Fragment {
         let network = &*self.network;
         let own = label_of[dice[0] as usize];
-        let (mut outer, mut inner, mut neighbours) = (Vec::new(), Vec::new(), Vec::new());
-        let mut hidden: Vec<[Corner; 3]> = Vec::new();
+        let (mut outer, mut hidden) = (Vec::new(), Vec::<[Corner; 3]>::new());
+        outer.reserve(14 * dice.len());
+        hidden.reserve(6 * dice.len());
+        let (mut inner, mut neighbours) = (Vec::new(), Vec::new());
         for &die in dice {
             outer.extend(network.faces_of(die));
             for (triangles, neighbour) in network.sides_of(die) {
@@ -159,8 +165,8 @@ impl Clump {
         let of_mesh = |t: &[Corner; 3]| t.map(|c| place(c) - self.centre);
         let mass = MassProperties::of_surface(network.density, outer.iter().map(of_mesh));
         let local = |c: Corner| (place(c) - self.centre - mass.centre).as_vec3();
-        let mut used: Vec<usize> = Vec::new();
-        let mut positions = Vec::new();
+        let mut used: Vec<usize> = Vec::with_capacity(8 * dice.len());
+        let mut positions = Vec::with_capacity(8 * dice.len());
         let triangles: Vec<[u32; 3]> = outer
             .iter()
             .map(|t| {
@@ -181,8 +187,8 @@ impl Clump {
             [(b - a).cross(c - a).normalize_or_zero(); 3]
         };
         let normals = triangles.iter().map(normal).collect();
-        let all: Vec<Vec3> = positions.clone();
         Fragment {
+            cell_shares: vec![(0, positions.clone())],
             mesh: TriMesh {
                 positions,
                 triangles,
@@ -193,7 +199,6 @@ impl Clump {
             neighbours,
             render: None,
             mass,
-            cell_shares: vec![(0, all)],
             supported: false,
             velocity: DVec3::ZERO,
             angular_velocity: DVec3::ZERO,

@@ -87,8 +87,10 @@ impl Network {
                 on_edge[edge.fix().index()] = lay(0.5 * (a + b))?;
             }
         }
+        let mut all = Vec::new();
         for vertex in delaunay.vertices() {
-            let all: Vec<_> = vertex.out_edges().collect();
+            all.clear();
+            all.extend(vertex.out_edges());
             let number = |k: usize| all[k % all.len()].face().fix().index();
             let to = |k: usize| all[k % all.len()].to().fix().index() as u32;
             let apex = vertex.fix().index() as u32;

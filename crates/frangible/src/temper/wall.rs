@@ -155,9 +155,12 @@ impl TemperedWall {
                 (b - a).perp_dot(p - a) / area,
             );
             let shares = [1.0 - u - v, u, v];
-            let least = shares.iter().copied().fold(f64::INFINITY, f64::min);
+            let least = shares[0].min(u).min(v);
             if best.is_none_or(|(known, ..)| least > known) {
                 best = Some((least, t, shares));
+            }
+            if least >= 0.0 {
+                break;
             }
         }
         let (least, t, shares) = best?;
