@@ -81,6 +81,7 @@ pub fn play_as_game(
         config.record_held = false;
         config.fracture.samples_per_period = 4.0;
         config.fracture.crumb_share = plan.crumb_share;
+        config.max_clumps = WorldConfig::for_games().max_clumps;
         if plan.coarse_colliders {
             let coarse = WorldConfig::for_games();
             config.hull_volume_ratio = coarse.hull_volume_ratio;

@@ -44,7 +44,6 @@ mod rigid;
 mod rng;
 mod state;
 mod stress;
-mod temper;
 mod tips;
 mod trace;
 

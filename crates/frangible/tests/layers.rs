@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// From the lowest to the highest. `mesh` and `material` are crates of their own, below all of them.
-const ORDER: [&str; 28] = [
+const ORDER: [&str; 27] = [
     "error",
     "rng",
     "vectors",
@@ -18,7 +18,6 @@ const ORDER: [&str; 28] = [
     "motion",
     "tips",
     "bounds",
-    "temper",
     "body",
     "contact",
     "crack",

@@ -5,6 +5,7 @@ mod flaw;
 mod mesh_index;
 mod patches;
 mod prepared;
+mod tempered;
 mod thickness;
 
 use std::sync::Arc;
@@ -16,11 +17,10 @@ use crate::bounds::WeakClusters;
 use crate::config::FractureConfig;
 use crate::error::InputError;
 use crate::fields::{Fields, Resistance, Toughness};
-use crate::mesh::SurfacePoint;
+use crate::mesh::{SurfacePoint, WallFaces};
 use crate::rng::{Purpose, stream, uniform};
 use crate::state::BodyState;
 use crate::stress::{Law, Places, WeakRows, weak_place};
-use crate::temper::TemperedWall;
 use crate::tips::{CrackFront, Tip, fronts, tips};
 
 pub(crate) use mesh_index::MeshIndex;
@@ -34,7 +34,7 @@ pub struct Breakable {
     fields: Arc<Fields>,
     toughness: Toughness,
     /// Its faces, if it is tempered.
-    tempered: Option<Arc<TemperedWall>>,
+    tempered: Option<Arc<WallFaces>>,
 }
 
 impl Breakable {
@@ -59,22 +59,6 @@ impl Breakable {
         let asset = asset.into();
         asset.validate()?;
         Self::of_sound(asset).tempered()
-    }
-
-    /// This kind with its faces, if its material has a residual stress.
-    fn tempered(self) -> Result<Self, InputError> {
-        if self.asset.material.residual_stress <= 0.0 {
-            return Ok(self);
-        }
-        let wall = TemperedWall::of(&self.asset).map_err(|problem| InputError::NoWall {
-            asset: self.asset.name.clone(),
-            material: self.asset.material.name.clone(),
-            problem,
-        })?;
-        Ok(Self {
-            tempered: Some(Arc::new(wall)),
-            ..self
-        })
     }
 
     /// The kind of an asset that has been checked, with uniform strength.
@@ -196,7 +180,7 @@ pub struct Body {
     seed: u64,
     weak_tets: Vec<u32>,
     /// Its faces, if it is tempered and whole.
-    tempered: Option<Arc<TemperedWall>>,
+    tempered: Option<Arc<WallFaces>>,
     state: BodyState,
     /// Fronts of the cracks in its state.
     pub(crate) tips: Vec<Tip>,
@@ -385,12 +369,6 @@ impl Body {
         let (skin, places) = (&self.prepared.skin, &self.places);
         let place = weak_place(&self.asset, skin, places, config, pressed, tet as usize);
         (place.point, place.law)
-    }
-
-    /// Its faces, if a crack that reaches the tension between them leaves dice.
-    pub(crate) fn dicing_wall(&self) -> Option<&Arc<TemperedWall>> {
-        let wall = self.tempered.as_ref()?;
-        self.asset.material.dices(wall.thickness).then_some(wall)
     }
 
     /// Smallest strength of the weak tetrahedra, Pa; the strength of the material if there are none.

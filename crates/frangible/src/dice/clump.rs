@@ -60,8 +60,7 @@ impl Clump {
     /// Middles of the dice on the upper face of the wall, m, frame of the clump.
     #[must_use]
     pub fn places(&self) -> Vec<Vec3> {
-        let apex = |&die: &u32| self.network.points[self.network.dice[die as usize].apex as usize];
-        let place = |die: &u32| (apex(die)[0] - self.centre).as_vec3();
+        let place = |&die: &u32| (self.network.points[die as usize][0] - self.centre).as_vec3();
         self.dice.iter().map(place).collect()
     }
 

@@ -2,12 +2,11 @@
 //!
 //! A crack that reaches the tension zone of a wall with enough stored energy forks until the wall is gone, in its plane and through all of its
 //! thickness. [`Material`](crate::material::Material) says when, and how large the dice are in the mean. They are finer than the fracture mesh and do
-//! not use it: `seeds.rs` scatters a point for each die about the place where the crack began, and `network.rs` makes the cells.
+//! not use it: `seeds.rs` scatters a point for each die about the place where the crack began, and `network.rs` makes prisms of the cells around
+//! them.
 //!
-//! **Cells.** The points and the outline are joined into a constrained Delaunay triangulation. A die is the polygon of the incentres of the triangles
-//! around its point; at the outline it is closed by the middles of the two edges there, and by the point itself. Two incentres are joined across the
-//! edge between their triangles, since the incircles touch it within. So the cells share all corners, do not overlap and leave nothing out, whatever
-//! the outline is, and three of them meet at each corner, as where cracks fork. Voronoi cells are as regular, but have to be cut at the outline.
+//! **Cells.** [`PlaneCells`](crate::mesh::PlaneCells) share all corners, do not overlap and leave nothing out, whatever the outline is, and three of them
+//! meet at each corner, as where cracks fork. Voronoi cells are as regular, but have to be cut at the outline.
 //!
 //! **Clumps.** Dice interlock, and fall in clumps at first. A clump is all dice that lie nearest to a seed along the network, so it hangs together.
 //! Its surface is closed and its inner cracks are drawn. A world may part it into smaller ones ([`Clump::part`]) down to single dice.

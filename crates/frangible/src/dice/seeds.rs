@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use glam::DVec2;
 
+use crate::mesh::{Grid, WallFaces};
 use crate::rng::{Purpose, stream, uniform};
-use crate::temper::{Grid, TemperedWall};
 
 /// Length of the dice along the crack's way over their width, where it began; farther off they are as long as wide.
 const STRETCHED: f64 = 2.2;
@@ -24,7 +24,7 @@ pub(super) struct Seeds {
 
 impl Seeds {
     /// Scatters points for dice of this mean area, m², about the place where the crack began.
-    pub(super) fn scatter(wall: &TemperedWall, origin: DVec2, area: f64, seed: u64) -> Self {
+    pub(super) fn scatter(wall: &WallFaces, origin: DVec2, area: f64, seed: u64) -> Self {
         let width = area.sqrt();
         let mut seeds = Self {
             points: Vec::new(),

@@ -8,7 +8,7 @@ pub(super) type Corner = (u32, usize);
 impl Network {
     /// Triangles of a die on the two faces of the wall.
     pub(super) fn faces_of(&self, die: u32) -> impl Iterator<Item = [Corner; 3]> + '_ {
-        let apex = self.dice[die as usize].apex;
+        let apex = die;
         let corners = self.corners_of(die);
         let sides = (0..corners.len()).map(move |k| {
             let [a, b] = [k, (k + 1) % corners.len()].map(|k| corners[k][0]);

@@ -7,7 +7,7 @@ const MOST: f64 = 1024.0;
 
 /// Lists of numbers by the squares of a grid.
 #[derive(Clone, Debug)]
-pub(crate) struct Grid {
+pub struct Grid {
     low: DVec2,
     square: f64,
     counts: [usize; 2],
@@ -16,7 +16,8 @@ pub(crate) struct Grid {
 
 impl Grid {
     /// An empty grid of squares of about this size, m, from `low` to `high`, m.
-    pub(crate) fn new([low, high]: [DVec2; 2], square: f64) -> Self {
+    #[must_use]
+    pub fn new([low, high]: [DVec2; 2], square: f64) -> Self {
         let size = high - low;
         let square = square.max(size.max_element() / MOST).max(f64::MIN_POSITIVE);
         let counts = [size.x, size.y].map(|length| (length / square) as usize + 1);
@@ -38,7 +39,7 @@ impl Grid {
     }
 
     /// Adds a number to all squares that a box touches.
-    pub(crate) fn add(&mut self, [low, high]: [DVec2; 2], number: u32) {
+    pub fn add(&mut self, [low, high]: [DVec2; 2], number: u32) {
         let ([x0, y0], [x1, y1]) = (self.at(low), self.at(high));
         for y in y0..=y1 {
             for x in x0..=x1 {
@@ -48,7 +49,7 @@ impl Grid {
     }
 
     /// Numbers in the squares that a box touches; one that lies in several of them comes as often.
-    pub(crate) fn near(&self, [low, high]: [DVec2; 2]) -> impl Iterator<Item = u32> + '_ {
+    pub fn near(&self, [low, high]: [DVec2; 2]) -> impl Iterator<Item = u32> + '_ {
         let ([x0, y0], [x1, y1]) = (self.at(low), self.at(high));
         let rows = (y0..=y1).map(move |y| y * self.counts[0]);
         rows.flat_map(move |row| {

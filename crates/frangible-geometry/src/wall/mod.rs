@@ -1,11 +1,14 @@
-//! The two faces of a tempered wall, found in the outer surface of a body.
+//! The two faces of a body that is one thin wall, such as a pane, as functions of a place in its mean plane.
 
-use glam::{DVec2, DVec3};
+mod grid;
+mod outline;
 
-use super::grid::Grid;
-use super::outline::{corners, loops};
-use crate::asset::Asset;
-use crate::mesh::{MassProperties, TriangleTree, symmetric_eigen};
+use glam::{DMat3, DVec2, DVec3, Vec3};
+
+pub use grid::Grid;
+use outline::{corners, loops};
+
+use crate::{MassProperties, TriangleTree, symmetric_eigen};
 
 /// Cosine between a face and the mean plane, at least; what is steeper is the wall's edge.
 const FACE: f64 = 0.5;
@@ -20,7 +23,7 @@ const OPPOSITE_CORNER: f64 = 1.02;
 
 /// A wall between two faces that are height fields over its mean plane.
 #[derive(Clone, Debug)]
-pub(crate) struct TemperedWall {
+pub struct WallFaces {
     /// Two axes of the mean plane, and its normal.
     axes: [DVec3; 3],
     /// Vertices of the upper face, m, in the mean plane.
@@ -30,28 +33,31 @@ pub(crate) struct TemperedWall {
     triangles: Vec<[u32; 3]>,
     of_square: Grid,
     /// Corners of the outlines, m, in the mean plane, the wall on the left.
-    pub(crate) outlines: Vec<Vec<DVec2>>,
+    pub outlines: Vec<Vec<DVec2>>,
     /// Mean thickness, m.
-    pub(crate) thickness: f64,
+    pub thickness: f64,
     /// Corners of the smallest box about it, m, in the mean plane.
-    pub(crate) bounds: [DVec2; 2],
+    pub bounds: [DVec2; 2],
 }
 
-impl TemperedWall {
-    /// Finds the faces of a body.
+impl WallFaces {
+    /// Finds the faces of a body in its closed outer surface. `mass`: of the body.
     ///
     /// # Errors
-    /// A sentence that says why the body is no such wall.
-    pub(crate) fn of(asset: &Asset) -> Result<Self, String> {
-        let (moments, directions) = symmetric_eigen(asset.mass.inertia);
+    /// A clause that says why the body is no such wall.
+    pub fn of(
+        positions: &[Vec3],
+        surface: &[[u32; 3]],
+        mass: &MassProperties,
+    ) -> Result<Self, String> {
+        let (moments, directions): (DVec3, DMat3) = symmetric_eigen(mass.inertia);
         let largest = (0..3).max_by(|&a, &b| moments[a].total_cmp(&moments[b]));
         let normal = directions.col(largest.unwrap_or(0)).normalize();
         let first = normal.any_orthonormal_vector();
         let axes = [first, normal.cross(first), normal];
-        let positions = &asset.fracture.positions;
         let place = |v: u32| positions[v as usize].as_dvec3();
         let (mut upper, mut lower) = (Vec::new(), Vec::new());
-        for triangle in &asset.surface.triangles {
+        for triangle in surface {
             let [a, b, c] = triangle.map(place);
             let slope = (b - a).cross(c - a).normalize_or_zero().dot(normal);
             match slope {
@@ -73,7 +79,7 @@ impl TemperedWall {
             }
             *v = *own;
         }
-        let behind = Behind::new(asset, &lower);
+        let behind = Behind::new(positions, &lower);
         let faces: Vec<[DVec3; 2]> = vertices
             .iter()
             .map(|&v| [place(v), behind.of(place(v))])
@@ -106,7 +112,7 @@ impl TemperedWall {
             ));
         }
         let volume = volume(&faces, &upper);
-        let whole = asset.mass.volume;
+        let whole = mass.volume;
         if (volume / whole - 1.0).abs() > ELSEWHERE {
             return Err(format!(
                 "{:.1} cm³ lie between its two faces, but it has {:.1} cm³",
@@ -139,13 +145,13 @@ impl TemperedWall {
     }
 
     /// Place in the mean plane of a point of the body, m.
-    pub(crate) fn plan_of(&self, p: DVec3) -> DVec2 {
+    pub fn plan_of(&self, p: DVec3) -> DVec2 {
         DVec2::new(p.dot(self.axes[0]), p.dot(self.axes[1]))
     }
 
     /// The points of the upper and the lower face at a place of the mean plane, m; just outside the outline those of the nearest triangle. With the
     /// least share of a corner of the triangle there, which is below zero outside.
-    pub(crate) fn faces_at(&self, p: DVec2) -> Option<(f64, [DVec3; 2])> {
+    pub fn faces_at(&self, p: DVec2) -> Option<(f64, [DVec3; 2])> {
         let mut best: Option<(f64, u32, [f64; 3])> = None;
         for t in self.of_square.near([p, p]) {
             let [a, b, c] = self.triangles[t as usize].map(|v| self.plan[v as usize]);
@@ -187,22 +193,26 @@ fn volume(faces: &[[DVec3; 2]], triangles: &[[u32; 3]]) -> f64 {
 
 /// Finds the points of a face that lie opposite others.
 struct Behind<'a> {
-    asset: &'a Asset,
+    positions: &'a [Vec3],
     lower: &'a [[u32; 3]],
     tree: TriangleTree,
 }
 
 impl<'a> Behind<'a> {
-    fn new(asset: &'a Asset, lower: &'a [[u32; 3]]) -> Self {
-        let tree = TriangleTree::new(&asset.fracture.positions, lower);
-        Self { asset, lower, tree }
+    fn new(positions: &'a [Vec3], lower: &'a [[u32; 3]]) -> Self {
+        let tree = TriangleTree::new(positions, lower);
+        Self {
+            positions,
+            lower,
+            tree,
+        }
     }
 
     /// The point of the face nearest to this one; a corner of its mesh, where that is as near.
     fn of(&self, p: DVec3) -> DVec3 {
         let nearest = self.tree.closest(p.as_vec3());
         let corners = self.lower[nearest.triangle as usize];
-        let corners = corners.map(|v| self.asset.fracture.positions[v as usize].as_dvec3());
+        let corners = corners.map(|v| self.positions[v as usize].as_dvec3());
         let by_distance = |a: &&DVec3, b: &&DVec3| a.distance(p).total_cmp(&b.distance(p));
         let corner = corners.iter().min_by(by_distance);
         let distance = nearest.position.as_dvec3().distance(p);
