@@ -1,6 +1,8 @@
 //! Scenes of tempered glass.
 
-use frangible_scenes::{GamePlan, bake, parse_scene, play, play_as_game, scene};
+use std::path::Path;
+
+use frangible_scenes::{GamePlan, Scene, SceneError, bake, parse_scene, play, play_as_game, scene};
 
 #[test]
 fn a_side_window_falls_into_dice_and_all_of_it_is_there() {
@@ -25,6 +27,10 @@ fn a_side_window_falls_into_dice_and_all_of_it_is_there() {
     );
 }
 
+fn parse(text: &str) -> Result<Scene, SceneError> {
+    parse_scene(text, Path::new("."))
+}
+
 #[test]
 fn tempered_glass_is_known_by_name_and_a_body_that_is_no_wall_is_refused() {
     let text = |shape: &str, material: &str| {
@@ -33,20 +39,20 @@ fn tempered_glass_is_known_by_name_and_a_body_that_is_no_wall_is_refused() {
         )
     };
     let pane = "{ box = [0.2, 0.2, 0.004] }";
-    let known = parse_scene(&text(pane, "\"heat-strengthened glass\"")).expect("a scene");
+    let known = parse(&text(pane, "\"heat-strengthened glass\"")).expect("a scene");
     assert!((known.bodies[0].material.residual_stress - 45e6).abs() < 1.0);
     let own = "{ preset = \"glass\", residual_stress = 80e6 }";
-    let own = parse_scene(&text(pane, own)).expect("a scene");
+    let own = parse(&text(pane, own)).expect("a scene");
     assert!((own.bodies[0].material.residual_stress - 80e6).abs() < 1.0);
     let too_much = "{ preset = \"glass\", residual_stress = 140e6 }";
-    let refused = parse_scene(&text(pane, too_much)).and_then(|scene| bake(&scene).map(|_| ()));
+    let refused = parse(&text(pane, too_much)).and_then(|scene| bake(&scene).map(|_| ()));
     let refused = refused.expect_err("too much").to_string();
     assert!(
         refused.contains("residual stress is 140000000 Pa"),
         "{refused}"
     );
     let block = text("{ box = [0.2, 0.1, 0.06] }", "\"tempered-glass\"");
-    let refused = parse_scene(&block).and_then(|scene| bake(&scene).map(|_| ()));
+    let refused = parse(&block).and_then(|scene| bake(&scene).map(|_| ()));
     let refused = refused.expect_err("a block").to_string();
     assert!(
         refused.contains("not one wall of even thickness"),
