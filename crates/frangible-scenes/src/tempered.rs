@@ -77,7 +77,7 @@ pub(crate) fn shower_door() -> Result<Scene, SceneError> {
     };
     scene.throw(Projectile {
         at: Vec3::new(0.2, -0.1, 0.0),
-        ..Projectile::ball(0.6, 0.0264, 9.0)
+        ..Projectile::ball(0.6, 0.0264, 15.0)
     });
     Ok(scene)
 }
