@@ -17,7 +17,7 @@ pub(crate) fn print() -> Result<(), Box<dyn Error>> {
         let action = action(&scene);
         writeln!(
             text,
-            "  {name:<10} {} ({material}; {action})",
+            "  {name:<11} {} ({material}; {action})",
             scene.summary
         )?;
     }
@@ -28,7 +28,7 @@ pub(crate) fn print() -> Result<(), Box<dyn Error>> {
     )?;
     text.push_str("\nMaterials (--material M, or the last part of --ball):\n");
     for preset in Material::presets() {
-        writeln!(text, "  {:<22} {}", preset.name, preset.summary)?;
+        writeln!(text, "  {:<23} {}", preset.name, preset.summary)?;
     }
     Ok(say(&text)?)
 }

@@ -227,6 +227,7 @@ fn baked(spec: &BakeSpec, progress: &mut dyn FnMut(Progress)) -> Result<Baked, B
         mode_seconds: modes.seconds,
     };
     asset.validate()?;
+    asset.check_temper()?;
     Ok(Baked { asset, report })
 }
 

@@ -27,4 +27,5 @@ mod skin;
 mod solids;
 mod sturm;
 mod supports;
+mod tempered;
 mod walls;

@@ -5,6 +5,7 @@
 //! - [`TriangleTree`]: the closest point of a surface; [`AlongSurface`]: distances along one; [`MassProperties`]: mass, centre and inertia;
 //! - [`symmetric_eigen`]: principal values and axes of a stress or an inertia;
 //! - [`merged_parts`], [`ConvexHull`], [`thinned`], [`bounds`] and [`box_of`]: fewer and simpler convex parts for colliders;
+//! - [`WallFaces`]: the two faces of a thin wall; [`PlaneCells`]: cells that divide a part of a plane; [`Grid`]: lists by the squares of a plane;
 //! - [`Rows`], [`ByNode`], [`DisjointSets`]: lists, tables and sets of indices.
 //!
 //! The core, the bake and the mesher share this crate. It contains neither physics nor file formats.
@@ -14,6 +15,7 @@
 mod along;
 mod boxes;
 mod by_node;
+mod cells;
 mod closest;
 mod convex;
 mod disjoint;
@@ -29,9 +31,11 @@ mod smooth;
 mod surface;
 mod tet;
 mod tree;
+mod wall;
 
 pub use along::AlongSurface;
 pub use by_node::ByNode;
+pub use cells::PlaneCells;
 pub use closest::closest_on_triangle;
 pub use convex::{bounds, box_of, merged_parts, thinned};
 pub use disjoint::DisjointSets;
@@ -49,3 +53,4 @@ pub use smooth::smooth_normals;
 pub use surface::TriMesh;
 pub use tet::{EDGES, FACES, NO_NEIGHBOUR, TetMesh};
 pub use tree::{SurfacePoint, TriangleTree};
+pub use wall::{Grid, WallFaces};

@@ -6,6 +6,7 @@ mod error;
 mod fatigue;
 mod material;
 mod presets;
+mod temper;
 
 pub use error::{OutOfRange, not_negative, positive};
 pub use fatigue::Fatigue;

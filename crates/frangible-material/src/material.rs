@@ -40,6 +40,9 @@ pub struct Material {
     pub restitution: f64,
     /// Coulomb friction coefficient.
     pub friction: f64,
+    /// Residual compression σ_s at the faces of a thermally tempered wall, Pa; 0 for none. Through the wall the stress is a parabola that sums
+    /// to zero, with the tension σ_s/2 in the middle. A body that has one must be one wall.
+    pub residual_stress: f64,
 }
 
 impl Material {
@@ -67,6 +70,7 @@ impl Material {
             ("mass damping", self.mass_damping),
             ("roughness amplitude", self.roughness_amplitude),
             ("friction", self.friction),
+            ("residual stress", self.residual_stress),
         ] {
             not_negative(what, value)?;
         }
@@ -77,7 +81,14 @@ impl Material {
         let must = "between -1 and 0.5 (glass 0.23, rubber just under 0.5)";
         OutOfRange::unless(nu > -1.0 && nu < 0.5, "Poisson's ratio", nu, must)?;
         let fits = (0.0..=1.0).contains(&e);
-        OutOfRange::unless(fits, "restitution", e, OutOfRange::RESTITUTION)
+        OutOfRange::unless(fits, "restitution", e, OutOfRange::RESTITUTION)?;
+        let fits = self.middle_tension() < self.strength;
+        OutOfRange::unless(fits, "residual stress", self.residual_stress, Self::TEMPER).map_err(
+            |error| OutOfRange {
+                unit: "Pa",
+                ..error
+            },
+        )
     }
 
     /// Sets the tensile strength, Pa. Because the flaw size changes, the energy depth is derived again:

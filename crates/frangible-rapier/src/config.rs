@@ -162,6 +162,9 @@ pub struct WorldConfig {
     pub fade_time: f32,
     /// Largest number of bodies; a body whose fragments would not fit stays whole. Default 4000.
     pub max_bodies: usize,
+    /// Largest number of clumps of dice of tempered walls, until which they part where they are hit. Walls that break begin with
+    /// [`FractureConfig::clumps`] each, however many there are. Default 600.
+    pub max_clumps: usize,
     /// Checks sustained loads after every step and breaks overloaded bodies. Default on.
     pub resting_loads: bool,
     /// Time at which a breaking body is replaced by its fragments. Default: inside the step.
@@ -205,6 +208,7 @@ impl Default for WorldConfig {
             rest_time: 2.0,
             fade_time: 0.0,
             max_bodies: 4000,
+            max_clumps: 600,
             resting_loads: true,
             breaking: Breaking::default(),
             pieces: PieceConfig::default(),
@@ -245,6 +249,7 @@ impl WorldConfig {
                 budget: 2_000,
                 delay: 3,
             },
+            max_clumps: 200,
             ..Self::default()
         }
     }

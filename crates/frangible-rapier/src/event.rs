@@ -65,6 +65,20 @@ pub struct BreakEvent {
     pub cracks_together: f64,
 }
 
+impl BreakEvent {
+    /// Number of breaks that led to the body that broke: 0 for an original body.
+    #[must_use]
+    pub fn generation(&self) -> u32 {
+        match self.fracture.clump(0) {
+            Some(clump) => clump.generation() - 1,
+            None => self
+                .asset
+                .portion()
+                .map_or(0, |portion| portion.generation()),
+        }
+    }
+}
+
 /// Event: an impact, blast or scripted blow that did not break a body, or a sustained load that cracked it without breaking it. Recorded
 /// on request.
 #[derive(Clone, Debug)]

@@ -19,6 +19,7 @@ use crate::contact::surface::SurfaceProperties;
 use crate::counts::LoadCounts;
 use crate::error::WorldError;
 use crate::event::{BreakEvent, HeldEvent};
+use crate::fragments::clumps::WorldClump;
 use crate::fragments::pieces::Expected;
 use crate::fragments::rubble::Rubbles;
 use crate::fragments::siblings::Siblings;
@@ -98,6 +99,10 @@ pub(crate) struct State {
     /// Time since when each piece sleeps, s.
     pub(crate) asleep: BTreeMap<Key, f64>,
     pub(crate) rubble: Rubbles,
+    /// Clumps of dice.
+    pub(crate) clumps: BTreeMap<Key, WorldClump>,
+    /// Those of them that were hit, in this order.
+    pub(crate) parting: VecDeque<RigidBodyHandle>,
     pub(crate) waiting: VecDeque<Waiting>,
     /// Bodies being made, in the order in which they are due.
     pub(crate) expected: VecDeque<Expected>,

@@ -27,4 +27,5 @@ mod resting;
 mod rigid;
 mod siblings;
 mod supports;
+mod tempered;
 mod tunnelling;

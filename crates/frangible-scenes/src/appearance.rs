@@ -73,7 +73,16 @@ pub(crate) fn appearance(material: &str) -> Appearance {
     };
     let even = [Grain::Even, Grain::Broken];
     match material.trim_start_matches("paper-") {
-        "glass" | "slab" | "slab-low" | "slab-moderate" | "slab-high" | "slab-very-high" => clear(
+        "glass"
+        | "glass-new"
+        | "glass-abraded"
+        | "tempered-glass"
+        | "heat-strengthened-glass"
+        | "slab"
+        | "slab-low"
+        | "slab-moderate"
+        | "slab-high"
+        | "slab-very-high" => clear(
             [0.62, 0.80, 0.78, 0.38],
             [0.16, 0.42, 0.38, 0.9],
             1.52,

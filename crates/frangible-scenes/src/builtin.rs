@@ -16,6 +16,7 @@ use crate::scene::Scene;
 use crate::sheets;
 use crate::showpieces;
 use crate::source::BodySource;
+use crate::tempered;
 
 /// Motion that breaks the body.
 enum Action {
@@ -24,7 +25,7 @@ enum Action {
 }
 
 /// Names of the built-in scenes; the first is the default.
-pub const SCENE_NAMES: [&str; 26] = [
+pub const SCENE_NAMES: [&str; 28] = [
     "glass",
     "pane",
     "plate",
@@ -51,6 +52,8 @@ pub const SCENE_NAMES: [&str; 26] = [
     "tiles",
     "windscreen",
     "ice-sheet",
+    "side-window",
+    "shower-door",
 ];
 
 /// Length, width and thickness of the bar of chocolate, m.
@@ -244,6 +247,8 @@ pub fn scene(name: &str) -> Result<Scene, SceneError> {
         "tiles" => sheets::tiles(),
         "windscreen" => sheets::windscreen(),
         "ice-sheet" => sheets::ice_sheet(),
+        "side-window" => tempered::side_window(),
+        "shower-door" => tempered::shower_door(),
         _ => Err(SceneError::UnknownScene {
             name: name.into(),
             hint: did_you_mean(name, SCENE_NAMES),

@@ -81,6 +81,7 @@ pub fn play_as_game(
         config.record_held = false;
         config.fracture.samples_per_period = 4.0;
         config.fracture.crumb_share = plan.crumb_share;
+        config.max_clumps = WorldConfig::for_games().max_clumps;
         if plan.coarse_colliders {
             let coarse = WorldConfig::for_games();
             config.hull_volume_ratio = coarse.hull_volume_ratio;
@@ -118,7 +119,7 @@ pub fn play_as_game(
             parts += *stage.world.timings();
             for event in stage.world.breaks() {
                 // A body that is cracked and whole has a portion, too.
-                match event.asset.portion().map_or(0, |p| p.generation()) {
+                match event.generation() {
                     0 => run.breaks += 1,
                     _ => run.again += 1,
                 }

@@ -47,6 +47,7 @@ mod showpieces;
 mod sound;
 mod source;
 mod stage;
+mod tempered;
 mod text;
 mod touching;
 mod wave;

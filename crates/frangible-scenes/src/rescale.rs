@@ -25,12 +25,12 @@ pub struct MaterialEdit {
     /// Its name, if another.
     pub name: Option<String>,
     /// The numbers of [`MaterialEdit::KEYS`] that are changed.
-    pub numbers: [Option<f64>; 15],
+    pub numbers: [Option<f64>; 16],
 }
 
 impl MaterialEdit {
     /// Names of the numbers: the fields of [`Material`] in their order.
-    pub const KEYS: [&'static str; 15] = [
+    pub const KEYS: [&'static str; 16] = [
         "youngs_modulus",
         "poisson_ratio",
         "density",
@@ -46,6 +46,7 @@ impl MaterialEdit {
         "crushing_pressure",
         "restitution",
         "friction",
+        "residual_stress",
     ];
 
     /// A preset as it is.
@@ -95,6 +96,7 @@ impl MaterialEdit {
             &mut m.crushing_pressure,
             &mut m.restitution,
             &mut m.friction,
+            &mut m.residual_stress,
         ];
         for (place, number) in places.into_iter().zip(self.numbers) {
             *place = number.unwrap_or(*place);

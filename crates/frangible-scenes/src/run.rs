@@ -112,11 +112,18 @@ pub fn play(
                 }
             }
             for event in world.breaks() {
-                fine_until = frame + FINE_FRAMES;
+                // Clumps of dice that part do so without a blow.
+                if event
+                    .fracture
+                    .clump(0)
+                    .is_none_or(|clump| clump.generation() == 1)
+                {
+                    fine_until = frame + FINE_FRAMES;
+                }
                 let Some((body, name)) = known.remove(&event.parent.into_raw_parts()) else {
                     continue;
                 };
-                let generation = event.asset.portion().map_or(0, |p| p.generation());
+                let generation = event.generation();
                 recorder.broke(
                     world,
                     &name,

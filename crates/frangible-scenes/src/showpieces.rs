@@ -1,12 +1,8 @@
 //! Built-in scenes for the eye: things that everybody has seen break.
 //!
-//! The glass here is annealed. Two other kinds need more than this model has:
-//! - **Laminated glass** (windscreens) is two panes on a sheet of plastic that holds the pieces. The scene `windscreen` has the panes, and an
-//!   [`Adhesive`](crate::Adhesive) that holds the pieces. What is left out is a soft layer that dissipates, in the modes as well as between the
-//!   pieces, and that tears last.
-//! - **Tempered and chemically strengthened glass** (side windows, phones) is under stress before anything touches it. It takes that
-//!   stress as an initial state of every element, added to the one of the blow, and the energy that it holds paid into the cracks: they then
-//!   run on by themselves and fork until all is dice.
+//! The glass here is annealed; `tempered.rs` has panes of tempered glass. **Laminated glass** (windscreens) is two panes on a sheet of plastic that
+//! holds the pieces, and needs more than this model has. The scene `windscreen` has the panes, and an [`Adhesive`](crate::Adhesive) that holds the
+//! pieces. What is left out is a soft layer that dissipates, in the modes as well as between the pieces, and that tears last.
 
 use std::f32::consts::FRAC_PI_2;
 

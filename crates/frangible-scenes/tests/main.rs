@@ -23,6 +23,7 @@ mod rotation;
 mod scenes;
 mod solids;
 mod sound;
+mod tempered;
 mod tetrahedra;
 mod toml;
 mod trends;

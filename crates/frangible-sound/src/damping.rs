@@ -48,6 +48,10 @@ const KNOWN: [Known; 12] = [
     Known {
         names: &[
             "glass",
+            "glass-new",
+            "glass-abraded",
+            "tempered-glass",
+            "heat-strengthened-glass",
             "paper-glass",
             "paper-slab",
             "paper-slab-low",

@@ -7,10 +7,10 @@ const WIDTH: usize = 110;
 
 fn main() {
     println!(
-        "name                  E, GPa     ν   density  strength     K_Ic      G_c  crushed at  splits at"
+        "name                     E, GPa     ν   density  strength     K_Ic      G_c  crushed at  splits at"
     );
     println!(
-        "                                      kg/m³       MPa    MPa√m     J/m²         MPa  σ√r/K_Ic"
+        "                                         kg/m³       MPa    MPa√m     J/m²         MPa  σ√r/K_Ic"
     );
     for preset in Material::presets() {
         let m = preset.material();
@@ -23,7 +23,7 @@ fn main() {
             known => format!("{:.0}", 1e-6 * known),
         };
         println!(
-            "{:20} {:7.3} {:5.2} {:9.0} {:9.2} {toughness:>8} {:8.1} {crushed:>11} {:10.2}",
+            "{:23} {:7.3} {:5.2} {:9.0} {:9.2} {toughness:>8} {:8.1} {crushed:>11} {:10.2}",
             m.name,
             1e-9 * m.youngs_modulus,
             m.poisson_ratio,

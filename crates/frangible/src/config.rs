@@ -43,6 +43,9 @@ pub struct FractureConfig {
     /// Smallest volume of a piece as a share of the body's volume; a smaller piece stays with the neighbour with the largest common
     /// area. Default 2e-4.
     pub crumb_share: f64,
+    /// Number of pieces into which a tempered wall falls at first: clumps of dice that move together until something parts them. 1 to 10,000; never
+    /// more than there are dice. Default 60.
+    pub clumps: usize,
 }
 
 /// Model of the cracks.
@@ -108,6 +111,7 @@ impl Default for FractureConfig {
             sized_flaws: true,
             load_duration: 1.0,
             crumb_share: 2e-4,
+            clumps: 60,
         }
     }
 }
@@ -143,6 +147,13 @@ impl FractureConfig {
             "`load_duration` of the fracture configuration",
             duration,
             "a finite time, 0 s or more",
+        )?;
+        let clumps = self.clumps;
+        OutOfRange::unless(
+            (1..=10_000).contains(&clumps),
+            "`clumps` of the fracture configuration",
+            clumps as f64,
+            "between 1 and 10000",
         )?;
         let share = self.crumb_share;
         let fits = (0.0..1.0).contains(&share);

@@ -1,5 +1,6 @@
 //! Cracks under a motion of the body, wherever it comes from: an impact, a resting load, a blast.
 
+use glam::Vec3;
 use web_time::Instant;
 
 use crate::blow::{Apart, Blow, Groups};
@@ -24,6 +25,8 @@ pub(crate) enum Cracked<'a> {
     Held(f64, ImpactReport, Option<Box<BodyState>>),
     /// Pieces, not made yet, and how they move apart where that was followed.
     Parted(CrackSystem<'a>, Labels, Option<Apart>, ImpactReport),
+    /// Dice, from this place, m, and time, s, on, in so many clumps.
+    Diced(Vec3, f64, usize, ImpactReport),
 }
 
 /// Stress wave → cracks `[G12 §4.4, §5]` → connected pieces `[G12 §6.1]`, for any motion of the body.
@@ -121,7 +124,7 @@ impl<'a> Cracking<'a> {
     /// Returns true if the body parts. Only stress that may crack it is looked at, so the report's stresses and the margin mean nothing.
     pub(crate) fn parts(self, first_step: usize, report: ImpactReport) -> bool {
         let cracked = self.run_after(Looked::AT_ENOUGH, first_step, report, &mut None);
-        matches!(cracked, Cracked::Parted(..))
+        matches!(cracked, Cracked::Parted(..) | Cracked::Diced(..))
     }
 
     fn run_after(
@@ -306,6 +309,13 @@ impl<'a> Cracking<'a> {
         report.take_peak(peak, body);
         report.stress_bound = f64::from(peak.tension.max(looked.passed_over));
         let margin = report.strength / f64::from(peak.as_weakest.max(looked.as_weakest));
+        if let Some((place, time, tet)) = system.gone {
+            report.first_crack_time = Some(time);
+            report.first_crack_point = Some(place - body.origin().as_vec3());
+            report.arrivals = vec![vec![(tet, time)]];
+            report.cracks = 1;
+            return Cracked::Diced(place, time, self.config.clumps, report);
+        }
         if system.area == 0.0 && trace.is_none() {
             return Cracked::Held(margin, report, None);
         }

@@ -43,6 +43,18 @@ pub enum InputError {
     /// A motion that does not match the body's modes.
     #[error("the motion is invalid: {0}")]
     Motion(&'static str),
+    /// A tempered body that is not one wall.
+    #[error(
+        "`{asset}` is of `{material}`, which has a residual stress through its wall, but it is not one wall of even thickness: {problem}; give it the shape of a pane, flat or curved, or a material without residual stress"
+    )]
+    NoWall {
+        /// The asset's name.
+        asset: String,
+        /// The material's name.
+        material: String,
+        /// Why the body is no wall.
+        problem: String,
+    },
     /// Arrays of an asset that do not fit together.
     #[error("asset `{asset}`: {problem}; bake it again")]
     Asset {

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use glam::Vec3;
 use web_time::Instant;
 
 use crate::blow::Blow;
@@ -9,6 +10,7 @@ use crate::body::Body;
 use crate::config::{DurationModel, FractureConfig};
 use crate::contact::{self, Contact, Pulse};
 use crate::cracking::{Cracked, Cracking, Moves};
+use crate::dice::dice;
 use crate::error::InputError;
 use crate::fragment::{self, Breakup, Built};
 use crate::motion::{self, Motion};
@@ -312,6 +314,9 @@ fn integrated(
 /// Cracks → fragments `[G12 §6]`.
 pub(crate) fn pieces(body: &Body, cracked: Cracked<'_>) -> Outcome {
     let (system, labels, apart, mut report) = match cracked {
+        Cracked::Diced(place, since, clumps, report) => {
+            return diced(body, place, since, clumps, report);
+        }
         Cracked::Parted(system, labels, apart, report) => (system, labels, apart, report),
         Cracked::Held(margin, report, state) => {
             return Outcome::Held {
@@ -354,5 +359,24 @@ pub(crate) fn pieces(body: &Body, cracked: Cracked<'_>) -> Outcome {
         fragments,
         report,
         breakup: Some(Arc::new(breakup)),
+        clumps: Vec::new(),
     }))
+}
+
+/// The outcome of a crack that lets a tempered wall go.
+fn diced(body: &Body, place: Vec3, since: f64, clumps: usize, mut report: ImpactReport) -> Outcome {
+    let start = Instant::now();
+    let Some(diced) = dice(body, place, since, clumps) else {
+        return Outcome::Held {
+            margin: 1.0,
+            report,
+            state: None,
+        };
+    };
+    report.crack_area = diced.crack_area;
+    report.volume_error = diced.volume_error;
+    report.timings.fragments = start.elapsed().as_secs_f64();
+    let mut fracture = Fracture::new(diced.fragments, report);
+    fracture.clumps = diced.clumps;
+    Outcome::Broke(Box::new(fracture))
 }

@@ -27,6 +27,7 @@ mod config;
 mod contact;
 mod crack;
 mod cracking;
+mod dice;
 mod error;
 mod fields;
 mod fragment;

@@ -13,6 +13,7 @@ use crate::state::BodyState;
 
 pub use crate::blow::BlowEnergy;
 pub use crate::contact::ContactReport;
+pub use crate::dice::Clump;
 pub use crate::fragment::Fragment;
 
 /// Outcome of an impact on a body.
@@ -58,6 +59,8 @@ pub struct Fracture {
     pub report: ImpactReport,
     /// Data for pieces that are to break again; none for pieces that came about elsewhere.
     pub(crate) breakup: Option<Arc<Breakup>>,
+    /// The dice of each piece, where the pieces are clumps of dice.
+    pub(crate) clumps: Vec<Arc<Clump>>,
 }
 
 impl Fracture {
@@ -69,7 +72,16 @@ impl Fracture {
             fragments,
             report,
             breakup: None,
+            clumps: Vec::new(),
         }
+    }
+
+    /// The dice that a piece consists of, if it is a clump of dice. Such a piece holds by nothing but its shape, and a world that follows it may
+    /// [part](Clump::part) it where it is hit.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn clump(&self, piece: usize) -> Option<&Arc<Clump>> {
+        self.clumps.get(piece)
     }
 
     /// Returns true if the fragments have [velocities of their own](crate::Fragment::velocity), because pieces separated during an integrated blow.
@@ -78,6 +90,18 @@ impl Fracture {
     pub fn moves_apart(&self) -> bool {
         let mut fragments = self.fragments.iter();
         fragments.any(|f| f.velocity != DVec3::ZERO || f.angular_velocity != DVec3::ZERO)
+    }
+}
+
+impl Clump {
+    /// The break into so many clumps, or single dice where it has fewer.
+    #[must_use]
+    pub fn parted(&self, into: usize) -> Fracture {
+        let (fragments, clumps) = self.part(into);
+        Fracture {
+            clumps,
+            ..Fracture::new(fragments, ImpactReport::default())
+        }
     }
 }
 
@@ -139,7 +163,7 @@ pub struct ImpactReport {
     /// Largest strain energy at a time step, J; with the energy ledger, the limit of the total energy of all cracks.
     #[doc(hidden)]
     pub peak_strain_energy: f64,
-    /// Fracture energy Σ A G_c, J.
+    /// Fracture energy Σ A G_c, J. The cracks between dice are not counted: the residual stress pays for them, not the blow.
     pub fracture_energy: f64,
     /// Area of new cracks and of the growth of old cracks (one side), m².
     pub crack_area: f64,

@@ -11,6 +11,8 @@ pub(crate) enum Purpose {
     Roughness = 3,
     Strength = 4,
     Places = 5,
+    Dice = 6,
+    Clumps = 7,
 }
 
 /// The stream of one item.

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// From the lowest to the highest. `mesh` and `material` are crates of their own, below all of them.
-const ORDER: [&str; 26] = [
+const ORDER: [&str; 27] = [
     "error",
     "rng",
     "vectors",
@@ -23,6 +23,7 @@ const ORDER: [&str; 26] = [
     "crack",
     "blow",
     "fragment",
+    "dice",
     "outcome",
     "piece",
     "refuse",

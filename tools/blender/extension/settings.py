@@ -17,6 +17,8 @@ BRITTLE = [
     # A .blend file remembers the place in this list: what is new comes last.
     ("glass-new", "Glass, new", "With its surface as it left the factory"),
     ("glass-abraded", "Glass, worn", "Old windows, and tumblers after years of use"),
+    ("tempered-glass", "Glass, tempered", "Side windows of cars and shower doors; panes only"),
+    ("heat-strengthened-glass", "Glass, heat-strengthened", "Facades; panes only"),
 ]
 STRIKING = [
     ("steel", "Steel", "A steel ball"),

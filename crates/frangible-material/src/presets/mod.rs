@@ -93,6 +93,7 @@ struct Numbers {
     crushing_pressure: f64,
     restitution: f64,
     friction: f64,
+    residual_stress: f64,
 }
 
 impl Preset {
@@ -158,6 +159,7 @@ impl Preset {
             crushing_pressure: n.crushing_pressure,
             restitution: n.restitution,
             friction: n.friction,
+            residual_stress: n.residual_stress,
         }
     }
 }

@@ -40,6 +40,7 @@ impl BreakableWorld {
         };
         self.state.breakables.retain(|key, _| key_alive(key));
         self.state.surfaces.retain(|key, _| key_alive(key));
+        self.state.clumps.retain(|key, _| key_alive(key));
         self.state.debris.retain(|&handle| alive(handle));
         self.state.fading.retain(|&(handle, _)| alive(handle));
         self.state.asleep.retain(|key, _| key_alive(key));

@@ -1,5 +1,6 @@
 //! Fragments in the place of a body that broke: their joints, those that break again, and those that rest.
 
+pub(crate) mod clumps;
 pub(crate) mod debris;
 pub(crate) mod joints;
 pub(crate) mod loosen;

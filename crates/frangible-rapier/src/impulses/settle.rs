@@ -85,6 +85,7 @@ impl BreakableWorld {
                 self.state.dust.push_back((handle, now));
             }
         }
+        self.note_clumps(body.asset(), &broken.fracture, &broken.fragments);
         self.expect_pieces(&body, broken);
         Some(body)
     }

@@ -60,6 +60,7 @@ impl BreakableWorld {
             Breaking::InsideStep => self.step_breaking_inside(caller),
             Breaking::AfterStep { budget, delay } => self.step_then_break(budget, delay, caller),
         };
+        self.part_clumps();
         self.state.steps += 1;
         self.note_step_time(whole.lap());
         pushed.and(done).map(|()| &*self.events)

@@ -219,6 +219,7 @@ fn edit(table: MaterialTable) -> MaterialEdit {
             table.crushing_pressure,
             table.restitution,
             table.friction,
+            table.residual_stress,
         ],
     }
 }

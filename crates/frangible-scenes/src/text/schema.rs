@@ -182,6 +182,7 @@ pub(super) struct MaterialTable {
     pub(super) crushing_pressure: Option<f64>,
     pub(super) restitution: Option<f64>,
     pub(super) friction: Option<f64>,
+    pub(super) residual_stress: Option<f64>,
 }
 
 /// A rotation: about an axis by an angle, or a unit quaternion (x, y, z, w).

@@ -85,6 +85,7 @@ pub(super) fn material_text(material: &Material) -> String {
             ("crushing_pressure", m.crushing_pressure),
             ("restitution", m.restitution),
             ("friction", m.friction),
+            ("residual_stress", m.residual_stress),
         ]
     };
     let differs = |ours: f64, theirs: f64| ours.to_bits() != theirs.to_bits();

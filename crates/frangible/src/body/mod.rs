@@ -5,6 +5,7 @@ mod flaw;
 mod mesh_index;
 mod patches;
 mod prepared;
+mod tempered;
 mod thickness;
 
 use std::sync::Arc;
@@ -16,7 +17,7 @@ use crate::bounds::WeakClusters;
 use crate::config::FractureConfig;
 use crate::error::InputError;
 use crate::fields::{Fields, Resistance, Toughness};
-use crate::mesh::SurfacePoint;
+use crate::mesh::{SurfacePoint, WallFaces};
 use crate::rng::{Purpose, stream, uniform};
 use crate::state::BodyState;
 use crate::stress::{Law, Places, WeakRows, weak_place};
@@ -32,6 +33,8 @@ pub struct Breakable {
     prepared: Arc<Prepared>,
     fields: Arc<Fields>,
     toughness: Toughness,
+    /// Its faces, if it is tempered.
+    tempered: Option<Arc<WallFaces>>,
 }
 
 impl Breakable {
@@ -39,7 +42,8 @@ impl Breakable {
     /// material with this name ([`Preset::named`](crate::internals::Preset::named)); a material with another name has uniform strength.
     ///
     /// # Errors
-    /// The arrays of the asset are inconsistent, or a number of its material is invalid.
+    /// The arrays of the asset are inconsistent, a number of its material is invalid, or the material has a
+    /// [residual stress](crate::Material::residual_stress) and the body is not one wall.
     pub fn new(asset: impl Into<Arc<Asset>>) -> Result<Self, InputError> {
         let uniform = Self::uniform(asset)?;
         let fields = Fields::of_material(&uniform.asset.material);
@@ -54,7 +58,7 @@ impl Breakable {
     pub fn uniform(asset: impl Into<Arc<Asset>>) -> Result<Self, InputError> {
         let asset = asset.into();
         asset.validate()?;
-        Ok(Self::of_sound(asset))
+        Self::of_sound(asset).tempered()
     }
 
     /// The kind of an asset that has been checked, with uniform strength.
@@ -65,6 +69,7 @@ impl Breakable {
             prepared: Arc::new(Prepared::of_whole(&asset)),
             asset,
             fields,
+            tempered: None,
         }
     }
 
@@ -89,7 +94,7 @@ impl Breakable {
     /// The errors of [`scaled`](crate::internals::asset::scaled).
     pub fn scaled(&self, factor: f64) -> Result<Self, RescaleError> {
         let asset = scaled(&self.asset, factor)?;
-        let kind = Self::of_sound(Arc::new(asset));
+        let kind = Self::of_sound(Arc::new(asset)).tempered()?;
         let mut fields = Fields::clone(&self.fields);
         for factors in &mut fields.of_tet {
             factors.groove *= factor as f32;
@@ -131,6 +136,8 @@ impl Breakable {
                     * self.fields.weak_points(e);
                 uniform(&mut rng) < -libm::expm1(-expected)
             })
+            // A tempered wall has no flaws but those of its surface: nothing has ever touched its middle.
+            .filter(|&e| self.tempered.is_none() || self.prepared.skin.flaw(e).is_some())
             .map(|e| e as u32)
             .collect();
         let resistance = Resistance::new(
@@ -150,6 +157,7 @@ impl Breakable {
             places: Places::new(asset.fracture.tets.len(), &weak_tets, seed),
             seed,
             weak_tets,
+            tempered: self.tempered.clone(),
             state: BodyState::default(),
             tips: Vec::new(),
         }
@@ -171,6 +179,8 @@ pub struct Body {
     /// Seed of its weak points and of the roughness of its cracks.
     seed: u64,
     weak_tets: Vec<u32>,
+    /// Its faces, if it is tempered and whole.
+    tempered: Option<Arc<WallFaces>>,
     state: BodyState,
     /// Fronts of the cracks in its state.
     pub(crate) tips: Vec<Tip>,
@@ -245,6 +255,7 @@ impl Body {
             resistance,
             seed: self.seed,
             weak_tets,
+            tempered: None,
             tips,
             state,
         }

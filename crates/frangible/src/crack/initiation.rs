@@ -83,7 +83,12 @@ pub(crate) fn crack(
         if !instant {
             advance(system, field, time);
         }
-        if !system.is_over(suspect.tet, time) && system.may_pay(suspect.place) {
+        if system.gone.is_some() {
+            break;
+        }
+        // The energy stored in a wall that dices pays for all of its cracks.
+        let pays = || system.dices || system.may_pay(suspect.place);
+        if !system.is_over(suspect.tet, time) && pays() {
             try_start(system, field, suspect, time);
         }
     }
@@ -146,6 +151,9 @@ fn try_start(system: &mut CrackSystem, field: &mut StressField, suspect: &Suspec
     let k = lane(field.step);
     let centre = field.weak_position(e as usize);
     let strength = system.resistance.strength(e);
+    if system.dices && system.resistance.is_open(e) {
+        return system.let_go(e, centre, now);
+    }
     let mut releases = std::mem::take(&mut system.releases);
     let left = (releases.may_crack(system, field, suspect, strength, now))
         .then(|| releases.released(system, field, suspect, now));
@@ -153,6 +161,10 @@ fn try_start(system: &mut CrackSystem, field: &mut StressField, suspect: &Suspec
     let Some(stress) = left.filter(|left| largest_eigenvalue(left) > strength) else {
         return;
     };
+    // The net stress of a face rises with the depth below it, faster than bending falls: the crack does not stop in the compressed layer.
+    if system.dices {
+        return system.let_go(e, centre, now);
+    }
     let normal = opening_direction(&stress, system.seed, e);
     let frame = CrackFrame::new(
         centre,
@@ -172,7 +184,8 @@ fn try_start(system: &mut CrackSystem, field: &mut StressField, suspect: &Suspec
     if area <= 0.0 {
         return;
     }
-    let tension = f64::from(normal.dot(suspect.state.stress(k).times(normal)));
+    let tension = f64::from(normal.dot(suspect.state.stress(k).times(normal)))
+        - system.resistance.pressed_at(e);
     let at_surface = field.is_on_surface(e as usize);
     let in_wall = field.wall(e as usize).is_some();
     let flaw = system.flaw_feed(e, at_surface || in_wall);

@@ -79,6 +79,10 @@ pub(crate) struct CrackSystem<'a> {
     pub(crate) edge: f32,
     /// Ledger of the energy that all cracks together may spend.
     pub(crate) ledger: Ledger,
+    /// True if a crack that starts leaves dice.
+    pub(super) dices: bool,
+    /// Place, m, and time, s, at which a crack has reached the tension of a wall that dices, and its tetrahedron.
+    pub(crate) gone: Option<(Vec3, f64, u32)>,
 }
 
 impl<'a> CrackSystem<'a> {
@@ -123,6 +127,8 @@ impl<'a> CrackSystem<'a> {
             extents: Extents::new(body.prepared.edge, asset.material.rayleigh_speed()),
             centroids: &body.prepared.centroids,
             edge: body.prepared.edge,
+            dices: !config.is_paper() && body.dicing_wall().is_some(),
+            gone: None,
         };
         for (old, &tip) in body.state().cracks.iter().zip(&body.tips) {
             system.restore(old, (!config.is_paper()).then_some(tip));
@@ -258,7 +264,12 @@ impl<'a> CrackSystem<'a> {
 
     /// Returns true if the ledger has nothing left to speak of: no crack runs any more.
     pub(crate) fn is_spent(&self) -> bool {
-        self.ledger.is_spent_to(self.least_cost())
+        self.gone.is_some() || self.ledger.is_spent_to(self.least_cost())
+    }
+
+    /// A crack has reached the tension of a wall that dices: no other matters any more.
+    pub(super) fn let_go(&mut self, tet: u32, place: Vec3, time: f64) {
+        self.gone.get_or_insert((place, time, tet));
     }
 
     /// Energy, J, below which nothing to speak of can be paid for.

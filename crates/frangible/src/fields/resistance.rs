@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Fields, scatter::scatter};
+use super::{Fields, groove::OPEN, scatter::scatter};
 use crate::material::Material;
 use crate::mesh::TetMesh;
 
@@ -91,6 +91,8 @@ pub(crate) struct Resistance {
     pub(crate) weakest: f64,
     /// Factor by which it is stronger than its flaws say ([`Self::strengthened`]).
     strengthened: f64,
+    /// What the residual stress adds to the strength of its flaws, all of which lie on faces, Pa.
+    pressed: f64,
 }
 
 impl Resistance {
@@ -109,19 +111,24 @@ impl Resistance {
             of_tet: Arc::from([]),
             weakest: above_zero(material.strength),
             strengthened: 1.0,
+            pressed: material.residual_stress,
         };
-        if **fields == Fields::default() {
+        if **fields == Fields::default() && body.pressed <= 0.0 {
             return body;
         }
         let mut of_tet: Vec<f32> = (0..tets).map(|e| rounded(body.painted(e as u32))).collect();
-        if fields.weibull_modulus > 0.0 {
+        if fields.weibull_modulus > 0.0 || body.pressed > 0.0 {
             let flaws = (material.weak_point_density * fields.specimen).max(1.0);
-            let single = libm::pow(flaws, 1.0 / fields.weibull_modulus);
+            let factor = |e: u32| match fields.weibull_modulus {
+                modulus if modulus > 0.0 => {
+                    libm::pow(flaws, 1.0 / modulus) * scatter(seed, e, modulus)
+                }
+                _ => 1.0,
+            };
             for &e in weak_tets {
-                let factor = single * scatter(seed, e, fields.weibull_modulus);
                 of_tet[e as usize] = match body.groove(e) {
-                    Some(groove) => rounded(groove.min(body.material * factor)),
-                    None => rounded(body.painted(e) * factor),
+                    Some(groove) => rounded(groove.min(body.material * factor(e) + body.pressed)),
+                    None => rounded(body.painted(e) * factor(e) + body.pressed),
                 };
             }
         }
@@ -167,8 +174,10 @@ impl Resistance {
         let mut of_tet: Vec<f32> = (0..tets as u32).map(|e| self.strength(e)).collect();
         for &e in weak_tets {
             let strength = &mut of_tet[e as usize];
-            *strength =
-                rounded(f64::from(*strength) * self.left_after(duration, f64::from(*strength)));
+            // Flaws grow only by the tension that the residual stress leaves.
+            let pressed = self.pressed_at(e).min(f64::from(*strength));
+            let own = f64::from(*strength) - pressed;
+            *strength = rounded(own * self.left_after(duration, own) + pressed);
         }
         let mut tired = Self {
             of_tet: of_tet.into(),
@@ -204,7 +213,8 @@ impl Resistance {
         if self.groove(tet).is_some() {
             return 0.0;
         }
-        let largest = f64::from(self.strength(tet)).max(self.painted(tet)) / self.strengthened;
+        let own = f64::from(self.strength(tet)) / self.strengthened - self.pressed;
+        let largest = own.max(self.painted(tet) / self.strengthened);
         material.flaw_depth(self.toughness.of(tet), largest) as f32
     }
 
@@ -215,6 +225,19 @@ impl Resistance {
             Some(f) => self.material * f64::from(f.strength),
             None => self.material,
         }
+    }
+
+    /// Part of the strength of a weak tetrahedron that is residual stress, Pa. That of a groove follows from its depth ([`Fields`]), and is no part.
+    pub(crate) fn pressed_at(&self, tet: u32) -> f64 {
+        match self.is_grooved(tet) {
+            true => 0.0,
+            false => self.pressed,
+        }
+    }
+
+    /// Returns true if a tetrahedron lies in a groove through the compressed layer of a tempered wall.
+    pub(crate) fn is_open(&self, tet: u32) -> bool {
+        self.pressed > 0.0 && self.groove(tet).is_some_and(|groove| groove <= 2.0 * OPEN)
     }
 
     /// Returns true if a tetrahedron lies in a groove.

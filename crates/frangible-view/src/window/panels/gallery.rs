@@ -9,7 +9,7 @@ macro_rules! picture {
 }
 
 /// Scene and PNG; just after the break, from the pictures of the gallery.
-const PICTURES: [(&str, &[u8]); 26] = [
+const PICTURES: [(&str, &[u8]); 28] = [
     picture!("bottle"),
     picture!("bowl"),
     picture!("brick"),
@@ -29,6 +29,8 @@ const PICTURES: [(&str, &[u8]); 26] = [
     picture!("rabbit"),
     picture!("shards"),
     picture!("shelf"),
+    picture!("shower-door"),
+    picture!("side-window"),
     picture!("statue"),
     picture!("tiles"),
     picture!("vase"),

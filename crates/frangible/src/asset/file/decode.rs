@@ -31,7 +31,13 @@ impl Asset {
         let of_nodes = [s::NODE_ELEMENTS, s::NODE_BARYCENTRIC, s::NODE_OFFSETS];
         let asset = Self {
             name: r.text(s::NAME)?.to_owned(),
-            material: material(r.text(s::MATERIAL_NAME)?, r.one(s::MATERIAL)?),
+            material: Material {
+                residual_stress: match r.has(s::RESIDUAL_STRESS) {
+                    true => r.one(s::RESIDUAL_STRESS)?,
+                    false => 0.0,
+                },
+                ..material(r.text(s::MATERIAL_NAME)?, r.one(s::MATERIAL)?)
+            },
             fracture: Arc::new(TetMesh {
                 positions: r.rows(s::POSITIONS)?,
                 tets: r.rows(s::TETS)?,
@@ -107,6 +113,7 @@ fn material(name: &str, numbers: [f64; 15]) -> Material {
         crushing_pressure,
         restitution,
         friction,
+        residual_stress: 0.0,
     }
 }
 

@@ -25,6 +25,9 @@ impl Asset {
         w.text(s::MATERIAL_NAME, &self.material.name);
         w.rows(s::MATERIAL, &[material_numbers(&self.material)]);
         w.rows(s::MASS, &[mass_numbers(&self.mass)]);
+        if self.material.residual_stress.to_bits() != 0 {
+            w.rows(s::RESIDUAL_STRESS, &[self.material.residual_stress]);
+        }
         w.rows(s::POSITIONS, &self.fracture.positions);
         w.rows(s::TETS, &self.fracture.tets);
         w.rows(s::NEIGHBOURS, &self.fracture.neighbours);

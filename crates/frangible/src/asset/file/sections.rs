@@ -22,6 +22,7 @@ sections! {
     MATERIAL_NAME = 2, "material name";
     MATERIAL = 3, "material";
     MASS = 4, "mass";
+    RESIDUAL_STRESS = 5, "residual stress";
     POSITIONS = 16, "fracture positions";
     TETS = 17, "fracture tetrahedra";
     NEIGHBOURS = 18, "fracture neighbours";

@@ -1,0 +1,53 @@
+//! Tempered walls: bodies whose material has a residual stress, which has to go through one wall.
+//!
+//! The weak points at the faces bear that much more (`fields`), and a crack that gets below the compressed layer may end in dice (`dice`).
+
+use std::sync::Arc;
+
+use super::{Body, Breakable};
+use crate::asset::Asset;
+use crate::error::InputError;
+use crate::mesh::WallFaces;
+
+impl Asset {
+    /// Checks that a body whose material has a residual stress is one wall.
+    ///
+    /// # Errors
+    /// A body that is not.
+    #[doc(hidden)]
+    pub fn check_temper(&self) -> Result<(), InputError> {
+        self.tempered_faces().map(|_| ())
+    }
+
+    /// The faces of a body, if its material has a residual stress.
+    fn tempered_faces(&self) -> Result<Option<WallFaces>, InputError> {
+        if self.material.residual_stress <= 0.0 {
+            return Ok(None);
+        }
+        let (positions, surface) = (&self.fracture.positions, &self.surface.triangles);
+        let faces = WallFaces::of(positions, surface, &self.mass);
+        faces.map(Some).map_err(|problem| InputError::NoWall {
+            asset: self.name.clone(),
+            material: self.material.name.clone(),
+            problem,
+        })
+    }
+}
+
+impl Breakable {
+    /// This kind with its faces, if its material has a residual stress.
+    pub(super) fn tempered(self) -> Result<Self, InputError> {
+        Ok(Self {
+            tempered: self.asset.tempered_faces()?.map(Arc::new),
+            ..self
+        })
+    }
+}
+
+impl Body {
+    /// Its faces, if a crack that reaches the tension between them leaves dice.
+    pub(crate) fn dicing_wall(&self) -> Option<&Arc<WallFaces>> {
+        let wall = self.tempered.as_ref()?;
+        self.asset.material.dices(wall.thickness).then_some(wall)
+    }
+}
