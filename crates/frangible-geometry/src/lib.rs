@@ -5,6 +5,7 @@
 //! - [`TriangleTree`]: the closest point of a surface; [`AlongSurface`]: distances along one; [`MassProperties`]: mass, centre and inertia;
 //! - [`symmetric_eigen`]: principal values and axes of a stress or an inertia;
 //! - [`merged_parts`], [`ConvexHull`], [`thinned`], [`bounds`] and [`box_of`]: fewer and simpler convex parts for colliders;
+//! - [`footing`]: the corners with which a body stands on a plane;
 //! - [`Rows`], [`ByNode`], [`DisjointSets`]: lists, tables and sets of indices.
 //!
 //! The core, the bake and the mesher share this crate. It contains neither physics nor file formats.
@@ -19,6 +20,7 @@ mod convex;
 mod disjoint;
 mod drawn;
 mod eigen;
+mod footing;
 mod hull;
 mod mass;
 #[cfg(test)]
@@ -40,6 +42,7 @@ pub use drawn::{
     RenderIndex, RenderMaterial, RenderSurface, Texture, TextureSlot, Wrap, linear_color,
 };
 pub use eigen::symmetric_eigen;
+pub use footing::{Corner, footing};
 pub use glam;
 pub use hull::{ConvexHull, hulls_of_parts};
 pub use mass::MassProperties;
