@@ -68,8 +68,8 @@ fn what_was_pressed_into_the_floor_comes_out_and_lies_still() {
 /// A shard of glass: the hull of eight points, of which `number` says which.
 fn shard(number: u32) -> SharedShape {
     let share =
-        |k: u32| (number * 8 + k).wrapping_mul(2_654_435_769) as f32 / u32::MAX as f32 - 0.5;
-    let corner = |k| {
+        |k: u32| (number * 24 + k).wrapping_mul(2_654_435_769) as f32 / u32::MAX as f32 - 0.5;
+    let corner = |k: u32| {
         Vector::new(
             0.03 * share(3 * k),
             0.006 * share(3 * k + 1),
