@@ -28,6 +28,9 @@ pub struct BreakAgain {
     pub least_tets: usize,
     /// Age at which a fragment becomes breakable. Default 0.4 s. A step waits for modes that are not ready by then.
     pub delay: Duration,
+    /// Age at which a fragment that is held becomes breakable, if that is sooner. Default zero, from the next step on: what flies through a pane meets
+    /// the rest of it there. The step waits for its modes.
+    pub held_delay: Duration,
     /// Largest number of bodies whose modes are computed at the same time. The largest fragments of a break come first; those that exceed the
     /// limit stay plain bodies. Default 4: the modes of a piece take some tens of milliseconds on one core.
     pub at_once: usize,
@@ -43,6 +46,7 @@ impl Default for BreakAgain {
             least_mass: 2e-3,
             least_tets: 60,
             delay: Duration::from_millis(400),
+            held_delay: Duration::ZERO,
             at_once: 4,
             cracked: true,
         }
@@ -123,15 +127,18 @@ pub(crate) fn expect_pieces(
         return;
     }
     let time = world.resource::<Time<Fixed>>();
-    let due = due(time, limits.delay);
+    let loose = due(time, limits.delay);
+    let held = loose.min(time.elapsed() + limits.held_delay);
     let mut nursery = world.resource_mut::<Nursery>();
     let free = nursery.free(&limits);
     let portions = fracture.portions(body, |k, f| k < free && f.mass.mass >= limits.least_mass);
-    for (&entity, portion) in fragments.iter().zip(portions) {
+    let fragments = fragments.iter().zip(&fracture.fragments);
+    for ((&entity, fragment), portion) in fragments.zip(portions) {
         let large = |p: &Arc<Portion>| p.tets().len() >= limits.least_tets;
         let Some(portion) = portion.filter(large) else {
             continue;
         };
+        let due = if fragment.supported { held } else { loose };
         let (parent, model) = (body.clone(), Arc::clone(&model));
         nursery.promise(entity, due, None, move || made(&parent, &portion, &*model));
     }

@@ -65,6 +65,21 @@ fn a_ball_goes_on_through_the_pane_that_it_breaks() {
 }
 
 #[test]
+fn a_fast_ball_is_at_the_pane_when_it_breaks_it() {
+    let (mut app, log) = app();
+    app.insert_resource(Gravity(Vec3::ZERO));
+    let pane = body(&mut app, "pane", Transform::default());
+    ready(&mut app, pane);
+    // Avian's sweep stops it in front of the pane, so that its place at the end of the step says nothing.
+    let ball = ball(&mut app, Vec3::Z * 0.1, Vec3::NEG_Z * 40.0);
+    app.update();
+    assert!(log.lines()[0].ends_with("pieces"), "{:?}", log.lines());
+    let at = app.world().get::<Position>(ball).unwrap().0;
+    let touches = 0.0158 + 0.002;
+    assert!((at.z - touches).abs() < 1e-4, "{at}");
+}
+
+#[test]
 fn a_slow_ball_bounces_off_and_is_heard_of() {
     let (mut app, log) = app();
     app.insert_resource(Gravity(Vec3::ZERO));
@@ -132,7 +147,7 @@ fn two_that_break_each_other_keep_their_momentum() {
     app.update();
     app.world_mut()
         .entity_mut(flies)
-        .insert(LinearVelocity(Vec3::NEG_Z * 45.0));
+        .insert(LinearVelocity(Vec3::NEG_Z * 80.0));
     let (energy, momentum) = motion(&mut app);
     while app.world().get::<Broken>(still).is_none() {
         app.update();

@@ -22,17 +22,17 @@ use crate::{BreakableBody, FragmentOf};
 /// Bodies nearer than this touch, m: Avian lists contacts that may come.
 const TOUCHES: f32 = 1e-4;
 
-/// Bodies whose contact was left out of the step, each with the share of the step until they touched and its position at the start of the step,
-/// m.
+/// Bodies whose contact was left out of the step, each with the time from the start of the step until it touched, s, and its position then, m: Avian's own
+/// position at the end of the step is no guide, since its sweep may have stopped a fast body in front of the other one.
 struct Touches(BTreeMap<Entity, (f32, Vec3)>);
 
 impl Touches {
     fn new<'a>(verdicts: impl Iterator<Item = &'a Verdict>) -> Self {
         let mut first: BTreeMap<Entity, (f32, Vec3)> = BTreeMap::new();
         for verdict in verdicts {
-            let [body, striker] = verdict.began;
-            for (entity, began) in [(Some(verdict.body), body), (verdict.striker, striker)] {
-                let new = (verdict.touched, began);
+            let [body, striker] = verdict.places;
+            for (entity, place) in [(Some(verdict.body), body), (verdict.striker, striker)] {
+                let new = (verdict.touched, place);
                 let Some(entity) = entity else { continue };
                 let known = first.entry(entity).or_insert(new);
                 if new.0 < known.0 {
@@ -45,8 +45,7 @@ impl Touches {
 
     /// Position of an entity when it touched. `now` is its position at the end of the step.
     fn place(&self, entity: Entity, now: Vec3) -> Vec3 {
-        let touched = self.0.get(&entity);
-        touched.map_or(now, |&(share, began)| began.lerp(now, share))
+        self.0.get(&entity).map_or(now, |&(_, place)| place)
     }
 }
 

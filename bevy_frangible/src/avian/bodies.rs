@@ -7,6 +7,7 @@ use frangible::Material;
 use frangible::glam::DQuat;
 use frangible::internals::mesh::symmetric_eigen;
 
+use super::calm::Place;
 use super::colliders::{ColliderDetail, of_fragment, whole};
 use super::plain::{piece, rigid, velocities};
 use super::{Carries, MadeOf, Molds, Moving};
@@ -130,6 +131,7 @@ pub(super) fn give_fragments(
                 RigidBody::Dynamic
             },
             masses(&fragment.mass),
+            Place::default(),
             SpeculativeMargin(detail.fragments_see),
             hooks.copied().unwrap_or_default() | ActiveCollisionHooks::MODIFY_CONTACTS,
         ));

@@ -209,8 +209,8 @@ pub(super) fn serve(
                 body,
                 striker: case.blow.striker,
                 contacts: case.blow.contacts,
-                touched: 1.0,
-                began: [Vec3::ZERO; 2],
+                touched: 0.0,
+                places: [Vec3::ZERO; 2],
                 left_out: false,
                 ruling: Ruling::Late(judged),
             });

@@ -8,8 +8,10 @@
 
 mod after;
 mod bodies;
+mod calm;
 mod colliders;
 mod debris;
+mod floor;
 mod hooks;
 mod later;
 mod merge;
@@ -55,10 +57,10 @@ struct Verdict {
     /// None for a collider without a body.
     striker: Option<Entity>,
     contacts: Vec<Contact>,
-    /// Time in the step at which the two touched, as a share of the step.
+    /// Time from the start of the step until the two touch, s.
     touched: f32,
-    /// Positions of the body and of the striker at the start of the step, m.
-    began: [Vec3; 2],
+    /// Positions of the body and of the striker then, m.
+    places: [Vec3; 2],
     /// The solver has left the pair out: the blow was integrated, and acts after the step.
     left_out: bool,
     ruling: Ruling,
@@ -116,6 +118,7 @@ pub(crate) fn build(app: &mut App) {
                     later::serve,
                     after::carry_out,
                     resting::weigh,
+                    calm::settle,
                     debris::rest,
                     debris::stop_clock,
                 )

@@ -6,6 +6,7 @@
 //! - [`symmetric_eigen`]: principal values and axes of a stress or an inertia;
 //! - [`merged_parts`], [`ConvexHull`], [`thinned`], [`bounds`] and [`box_of`]: fewer and simpler convex parts for colliders;
 //! - [`WallFaces`]: the two faces of a thin wall; [`PlaneCells`]: cells that divide a part of a plane; [`Grid`]: lists by the squares of a plane;
+//! - [`footing`]: the corners with which a body stands on a plane;
 //! - [`Rows`], [`ByNode`], [`DisjointSets`]: lists, tables and sets of indices.
 //!
 //! The core, the bake and the mesher share this crate. It contains neither physics nor file formats.
@@ -21,6 +22,7 @@ mod convex;
 mod disjoint;
 mod drawn;
 mod eigen;
+mod footing;
 mod hull;
 mod mass;
 #[cfg(test)]
@@ -44,6 +46,7 @@ pub use drawn::{
     RenderIndex, RenderMaterial, RenderSurface, Texture, TextureSlot, Wrap, linear_color,
 };
 pub use eigen::symmetric_eigen;
+pub use footing::{Corner, footing};
 pub use glam;
 pub use hull::{ConvexHull, hulls_of_parts};
 pub use mass::MassProperties;

@@ -137,6 +137,7 @@ pub struct WorldConfig {
     pub rolling_arm: f32,
     /// Largest drift of a body at rest, m: while it touches something, none of its points moves farther than this within 0.4 s.
     /// Default 3e-3 (7.5 mm/s; Rapier's own threshold is 40 mm/s, but in every step). Zero: Rapier alone decides on sleep.
+    /// One that has not been faster than 0.1 m/s for seconds may drift up to six times as far: in a heap some piece always creeps.
     pub rest_drift: f32,
     /// Distance within which a joint of a broken body moves to the fragment nearest to its anchor, m; otherwise it is released.
     /// Default 5e-3.

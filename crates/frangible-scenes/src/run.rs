@@ -224,8 +224,9 @@ pub(crate) fn steps_of_frame(stage: &mut Stage<'_>, scene: &Scene, just_broken: 
         .iter()
         .filter(|body| world.breakable(body.handle).is_some());
     let first = whole.next().is_some();
-    // If pieces break again, some bodies may stay whole to the end.
-    let waits = first && (stage.bodies.len() == 1 || scene.pieces.generations == 0);
+    // Some bodies may stay whole to the end: among the debris of others they are looked after as below.
+    let none_broke = whole.count() + 1 == stage.bodies.len();
+    let waits = first && none_broke && (stage.bodies.len() == 1 || scene.pieces.generations == 0);
     if (just_broken && stage.bodies.len() <= FEW) || waits {
         return FINE_STEPS_PER_FRAME;
     }

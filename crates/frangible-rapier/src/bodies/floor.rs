@@ -1,44 +1,15 @@
-//! Contacts of polyhedra with a half-space: of the corners that are lowest, wherever they are.
-//!
-//! Parry takes the face of a polyhedron that is most nearly parallel to the plane and touches with that face's
-//! corners alone. On a jagged piece that face is a small one somewhere, not the one at the bottom: the tip sinks
-//! until the face arrives (measured: 12 mm on a piece of a brick), then the piece rocks from face to face for
-//! ever. Here a body touches with its lowest corner and those that span the widest base with it.
+//! Contacts of polyhedra with a half-space: of the corners that are lowest, wherever they are ([`footing`]).
 
+use frangible::internals::mesh::{Corner, footing};
 use rapier3d::geometry::{ContactData, ContactManifoldData};
 use rapier3d::math::{Pose, Real, Vector};
 use rapier3d::parry::query::{ContactManifold, TrackedContact, Unsupported};
 use rapier3d::parry::shape::{HalfSpace, PackedFeatureId, Shape};
 
-/// A corner higher than the lowest one by h counts as nearer by this × h: a base is spanned by corners that touch,
-/// not by ones that hover inside the prediction distance.
-const HEIGHT_COST: f32 = 20.0;
-
-/// Depth below the plane from which on corners are alike, m: all of them touch, so that a sunken body is lifted by its widest base. Lifted by its
-/// lowest corner alone it turns about that, and goes on turning where it is. Rapier leaves resting bodies 0.1 mm deep.
-const SUNK: f32 = 3e-4;
-
-/// A corner that touched in the last step counts as farther by this, m, so that the base does not flicker between
-/// corners that are as good.
-const LOYALTY: f32 = 5e-4;
-
 type Manifold = ContactManifold<ContactManifoldData, ContactData>;
 
 /// Bits of a corner's number that count corners of one part; the others count parts.
 const CORNER_BITS: u32 = 12;
-
-/// A corner of a shape at which the solver may touch the plane.
-#[derive(Clone, Copy)]
-struct Corner {
-    /// Number of the corner, the same as long as the shape lives.
-    id: PackedFeatureId,
-    /// Position in the shape's frame, m.
-    point: Vector,
-    /// Height above the plane, m.
-    height: f32,
-    /// Cost of the height and worth of loyalty, m.
-    worth: f32,
-}
 
 /// Returns true if a shape is a polyhedron, or a compound of nothing but polyhedra.
 fn has_corners(shape: &dyn Shape) -> bool {
@@ -73,36 +44,6 @@ fn corners(shape: &dyn Shape, mut visit: impl FnMut(u32, Vector)) {
     }
 }
 
-/// The up to four corners to stand on.
-fn base(near: &[Corner], up: Vector) -> Vec<Corner> {
-    let best = |score: &dyn Fn(&Corner) -> f32| {
-        near.iter()
-            .copied()
-            .max_by(|a, b| score(a).total_cmp(&score(b)).then(b.id.0.cmp(&a.id.0)))
-    };
-    let mut base: Vec<Corner> = Vec::with_capacity(4);
-    let mut add = |corner: Option<Corner>| {
-        if let Some(corner) = corner.filter(|c| base.iter().all(|b| b.id != c.id)) {
-            base.push(corner);
-        }
-    };
-    let Some(first) = best(&|c| -c.height) else {
-        return base;
-    };
-    let flat = |v: Vector| v - up * v.dot(up);
-    let second = best(&|c| flat(c.point - first.point).length() + c.worth).unwrap_or(first);
-    let across = up
-        .cross(flat(second.point - first.point))
-        .normalize_or_zero();
-    add(Some(first));
-    add(Some(second));
-    for side in [across, -across] {
-        add(best(&|c| (c.point - first.point).dot(side) + c.worth)
-            .filter(|c| (c.point - first.point).dot(side) > 0.0));
-    }
-    base
-}
-
 /// `to_plane`: pose of the shape in the half-space's frame. `flipped`: the shape is the first of the pair.
 pub(crate) fn touch(
     to_plane: &Pose,
@@ -130,7 +71,8 @@ pub(crate) fn touch(
             return Ok(());
         }
     }
-    let known = |id| {
+    let known = |number| {
+        let id = PackedFeatureId::vertex(number);
         old.iter()
             .any(|c| if flipped { c.fid1 == id } else { c.fid2 == id })
     };
@@ -139,28 +81,23 @@ pub(crate) fn touch(
         let height = (*to_plane * point).dot(plane.normal);
         if height <= prediction {
             near.push(Corner {
-                id: PackedFeatureId::vertex(number),
+                number,
                 point,
                 height,
-                worth: 0.0,
+                known: known(number),
             });
         }
     });
-    let lowest = near.iter().map(|c| c.height).fold(f32::INFINITY, f32::min);
-    for corner in &mut near {
-        let loyalty = if known(corner.id) { LOYALTY } else { 0.0 };
-        corner.worth = loyalty - HEIGHT_COST * (corner.height.max(-SUNK) - lowest.max(-SUNK));
-    }
     let up = to_plane.rotation.inverse() * plane.normal;
     let mut manifold = manifolds.pop().unwrap_or_default();
-    for corner in base(&near, up) {
+    for corner in footing(&near, up) {
         let on_plane = *to_plane * corner.point - plane.normal * corner.height;
         let face = PackedFeatureId::face(0);
         manifold.points.push(TrackedContact::flipped(
             on_plane,
             corner.point,
             face,
-            corner.id,
+            PackedFeatureId::vertex(corner.number),
             corner.height,
             flipped,
         ));

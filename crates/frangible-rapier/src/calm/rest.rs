@@ -4,6 +4,10 @@
 //! stands on corners that take turns, so single steps exceed any threshold while the piece goes nowhere, and one such
 //! piece keeps the whole heap awake. Here a body that touches something and of which no point went farther than
 //! [`crate::WorldConfig::rest_drift`] within [`REST_TIME`] may sleep.
+//!
+//! In a heap of hundreds some piece always creeps, pushed by the rounding of its contacts. So a body that has not been faster than [`MOVES`] for seconds may
+//! creep farther, up to [`PATIENCE`] times as far. And single steps may turn a small piece fast, which Rapier does not let sleep whatever its threshold:
+//! the rotation of a body that stays in its place is limited to what does.
 
 use std::collections::BTreeMap;
 
@@ -16,6 +20,18 @@ use crate::world::{Key, key};
 /// Time that a body has to stay in its place before it may sleep, s.
 const REST_TIME: f32 = 0.4;
 
+/// A body that leaves its place with a mean speed above this moves, and one below creeps, m/s.
+const MOVES: f32 = 0.1;
+
+/// Time for which a body may touch nothing, s: one that rocks hops. One that falls is 5 mm away by then, and on its way.
+const HOP: f32 = 0.03;
+
+/// Multiple of the drift that a body may have in the end, after one second of creeping for each one.
+const PATIENCE: f32 = 6.0;
+
+/// Rotation of a body that may sleep, rad/s: Rapier's own limit is π/2.
+const LEAST_SPIN: f32 = 1.5;
+
 /// Sleep threshold of a body that stays in its place, length units per second: more than corners taking turns.
 const LENIENT: f32 = 10.0;
 
@@ -23,6 +39,9 @@ const LENIENT: f32 = 10.0;
 struct Place {
     pose: Pose,
     since: f32,
+    /// Time since it moved, and since it touched anything, s.
+    calm: f32,
+    apart: f32,
     /// Farthest point of the body's shapes from its origin, m.
     reach: f32,
     /// The body's own sleep threshold while it has the lenient one.
@@ -71,12 +90,14 @@ impl Places {
             body.is_some()
         });
         let dt = physics.integration_parameters.dt;
-        let mut thresholds = Vec::new();
+        let (mut thresholds, mut turning) = (Vec::new(), Vec::new());
         let awake = |b: &RigidBody| b.is_dynamic() && b.is_enabled() && !b.is_sleeping();
         for (handle, body) in bodies.iter().filter(|(_, b)| awake(b)) {
             let here = || Place {
                 pose: *body.position(),
                 since: 0.0,
+                calm: 0.0,
+                apart: 0.0,
                 reach: reach(body, physics),
                 threshold: None,
                 velocity: body.linvel(),
@@ -85,16 +106,37 @@ impl Places {
             let place = self.places.entry(key(handle)).or_insert_with(here);
             let own = body.activation().normalized_linear_threshold;
             // A body that may not sleep says so by a negative threshold.
-            if own < 0.0 || way(place, body) > drift || !touches(body, physics) {
+            let way = way(place, body);
+            let allowed = drift * (1.0 + place.calm).min(PATIENCE);
+            place.apart = if touches(body, physics) {
+                0.0
+            } else {
+                place.apart + dt
+            };
+            if own < 0.0 || way > allowed || place.apart > HOP {
+                if way > MOVES * (place.since + dt) {
+                    place.calm = 0.0;
+                }
+                place.calm += dt;
                 let threshold = place.threshold.take();
                 thresholds.extend(threshold.map(|threshold| (handle, threshold, false)));
                 (place.pose, place.since) = (*body.position(), 0.0);
                 continue;
             }
-            place.since += dt;
-            if place.since >= REST_TIME && place.threshold.is_none() {
+            (place.since, place.calm) = (place.since + dt, place.calm + dt);
+            if place.since < REST_TIME {
+                continue;
+            }
+            if place.threshold.is_none() {
                 place.threshold = Some(own);
                 thresholds.push((handle, LENIENT, true));
+            } else if body.angvel().length() > LEAST_SPIN {
+                turning.push(handle);
+            }
+        }
+        for handle in turning {
+            if let Some(body) = physics.bodies.get_mut(handle) {
+                body.set_angvel(body.angvel().clamp_length_max(LEAST_SPIN), false);
             }
         }
         for (handle, threshold, rests) in thresholds {
