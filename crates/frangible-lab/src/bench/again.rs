@@ -6,7 +6,7 @@ use frangible::FractureConfig;
 use frangible_scenes::{GamePlan, GameRun, SceneError, bake, play_as_game, scene};
 use serde::Serialize;
 
-use crate::bench::error::BenchError;
+use crate::Result;
 use crate::bench::fingerprint::Fingerprint;
 use crate::bench::stats::{Spread, Times};
 
@@ -70,11 +70,7 @@ pub struct Findings {
 ///
 /// # Errors
 /// A scene that cannot be baked or played, runs that differ.
-pub fn measure(
-    runs: usize,
-    plan: GamePlan,
-    progress: &mut dyn FnMut(&str, f64),
-) -> Result<Found, BenchError> {
+pub fn measure(runs: usize, plan: GamePlan, progress: &mut dyn FnMut(&str, f64)) -> Result<Found> {
     let runs = runs.max(1);
     let mut scenes = Vec::new();
     for (i, name) in SCENES.into_iter().enumerate() {
@@ -115,7 +111,7 @@ pub fn measure(
 }
 
 /// Plays a heap of all pieces that there are, in one step per frame.
-fn heap(runs: usize, plan: GamePlan) -> Result<Heap, BenchError> {
+fn heap(runs: usize, plan: GamePlan) -> Result<Heap> {
     let scene = scene(HEAP)?;
     let baked = bake(&scene)?;
     let plan = GamePlan {
@@ -138,14 +134,14 @@ fn heap(runs: usize, plan: GamePlan) -> Result<Heap, BenchError> {
 fn best_of(
     name: &str,
     runs: usize,
-    mut play: impl FnMut() -> Result<GameRun, SceneError>,
-) -> Result<GameRun, BenchError> {
+    mut play: impl FnMut() -> std::result::Result<GameRun, SceneError>,
+) -> Result<GameRun> {
     let mut best = play()?;
     for _ in 1..runs {
         let other = play()?;
         if print(&other) != print(&best) {
             let problem = format!("two runs of the scene `{name}` ended differently");
-            return Err(BenchError::NotAsMeant(problem));
+            return Err(crate::Error::from(problem));
         }
         for (time, t) in best.frames.iter_mut().zip(other.frames) {
             *time = time.min(t);

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use frangible::{Asset, Material};
 use frangible_bake::{BakeSpec, bake_with};
 
-use crate::bench::error::BenchError;
+use crate::Result;
 use crate::bench::subjects::Geometry;
 
 /// Folder of baked bodies.
@@ -39,14 +39,15 @@ impl Cache {
         name: &str,
         modes: usize,
         material: &str,
-        geometry: impl FnOnce() -> Result<Geometry, BenchError>,
+        geometry: impl FnOnce() -> Result<Geometry>,
         progress: &mut dyn FnMut(&str, f64),
-    ) -> Result<Baked, BenchError> {
+    ) -> Result<Baked> {
         let wrong = |path: &Path| {
-            let path = path.to_owned();
-            move |e: std::io::Error| BenchError::Cache {
-                path,
-                problem: e.to_string(),
+            let path = path.display().to_string();
+            move |e| {
+                format!(
+                    "`{path}` cannot be used for the baked bodies: {e}; choose another folder with --cache DIR"
+                )
             }
         };
         fs::create_dir_all(&self.folder).map_err(wrong(&self.folder))?;

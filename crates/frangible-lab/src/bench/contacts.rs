@@ -13,8 +13,8 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use serde::Serialize;
 
+use crate::Result;
 use crate::bench::cache::Cache;
-use crate::bench::error::BenchError;
 use crate::bench::stats::{Spread, Times};
 use crate::bench::subjects::{MODES, PIG_GROWN, PIG_TETS, solid, steel_ball};
 
@@ -66,20 +66,6 @@ impl Class {
         Self::Cracked,
         Self::Breaks,
     ];
-
-    /// The class in words.
-    #[must_use]
-    pub const fn title(self) -> &'static str {
-        match self {
-            Self::Size => "refused by its size",
-            Self::Impulse => "refused by its impulse",
-            Self::Amplitudes => "refused by the amplitudes",
-            Self::Clusters => "refused by clusters",
-            Self::LookedAt => "looked at, holds",
-            Self::Cracked => "cracks, holds",
-            Self::Breaks => "breaks",
-        }
-    }
 }
 
 /// A class, timed.
@@ -118,7 +104,7 @@ pub struct Findings {
 ///
 /// # Errors
 /// A body that does not bake, or whose file cannot be read.
-pub fn measure(cache: &Cache, progress: &mut dyn FnMut(&str, f64)) -> Result<Findings, BenchError> {
+pub fn measure(cache: &Cache, progress: &mut dyn FnMut(&str, f64)) -> Result<Findings> {
     let geometry = || Ok((solid("piggy_bank", PIG_GROWN, PIG_TETS)?, None, None));
     let baked = cache.body("porcelain-pig", MODES, "porcelain", geometry, progress)?;
     let body = Breakable::uniform(baked.asset)?.body(1);
@@ -144,7 +130,10 @@ pub fn measure(cache: &Cache, progress: &mut dyn FnMut(&str, f64)) -> Result<Fin
     }
     let mut classes = Vec::new();
     for (kind, contacts) in Class::ALL.into_iter().zip(&found) {
-        progress(kind.title(), kind as usize as f64 / Class::ALL.len() as f64);
+        progress(
+            &format!("{kind:?}"),
+            kind as usize as f64 / Class::ALL.len() as f64,
+        );
         if !contacts.is_empty() {
             classes.push((kind, time(&body, contacts, &config)?));
         }
@@ -165,13 +154,6 @@ pub fn measure(cache: &Cache, progress: &mut dyn FnMut(&str, f64)) -> Result<Fin
     })
 }
 
-/// The game-like distribution, in words.
-pub const GAME_DISTRIBUTION: &str = "one contact each, at a corner of a surface triangle drawn at random, along its inward \
-     normal tilted by up to 45° to any side, at speeds log-uniform between 0.01 and 0.3 m/s; one half steel balls of 20 to 220 g, \
-     one half flat stone that does not give way; the impulse that rigid bodies exchange, restitution 0.5";
-/// Speeds of the contacts for the classes, where they differ from the game-like distribution, in words.
-pub const CLASS_SPEEDS: &str = "0.01 to 6 m/s";
-
 /// Draws contacts.
 struct Source<'a> {
     asset: &'a Asset,
@@ -181,7 +163,7 @@ struct Source<'a> {
 }
 
 impl<'a> Source<'a> {
-    fn new(body: &'a Body, speeds: [f64; 2], seed: u64) -> Result<Self, BenchError> {
+    fn new(body: &'a Body, speeds: [f64; 2], seed: u64) -> Result<Self> {
         Ok(Self {
             asset: body.asset(),
             speeds,
@@ -199,7 +181,7 @@ impl<'a> Source<'a> {
         f64::from(self.rng.next_u32()) / (f64::from(u32::MAX) + 1.0)
     }
 
-    fn draw(&mut self) -> Result<Contact, BenchError> {
+    fn draw(&mut self) -> Result<Contact> {
         let surface = self.asset.surface();
         let triangle = (self.uniform() * surface.triangles.len() as f64) as usize;
         let corner = surface.triangles[triangle][0] as usize;
@@ -225,7 +207,7 @@ impl<'a> Source<'a> {
     }
 }
 
-fn class(body: &Body, contact: &Contact, config: &FractureConfig) -> Result<Class, BenchError> {
+fn class(body: &Body, contact: &Contact, config: &FractureConfig) -> Result<Class> {
     let outcome = impact(body, std::slice::from_ref(contact), config)?;
     let report = outcome.report();
     Ok(match (&outcome, report.looked_at) {
@@ -240,12 +222,12 @@ fn class(body: &Body, contact: &Contact, config: &FractureConfig) -> Result<Clas
 }
 
 /// Rate first, then single calls; `contacts` is not empty.
-fn time(body: &Body, contacts: &[Contact], config: &FractureConfig) -> Result<Timed, BenchError> {
+fn time(body: &Body, contacts: &[Contact], config: &FractureConfig) -> Result<Timed> {
     let clock = Instant::now();
     would_break(body, &contacts[..1], config)?;
     let fit = BUDGET / clock.elapsed().as_secs_f64();
     let contacts = &contacts[..contacts.len().min(FEWEST.max(fit as usize))];
-    let round = || -> Result<f64, BenchError> {
+    let round = || -> Result<f64> {
         let clock = Instant::now();
         for contact in contacts {
             std::hint::black_box(would_break(body, std::slice::from_ref(contact), config)?);

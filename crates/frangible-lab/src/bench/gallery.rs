@@ -9,7 +9,7 @@ use frangible::{Body, Breakable, Contact, FractureConfig, Outcome, impact, would
 use frangible_scenes::{FirstBreak, bake, breakable, first_break, scene};
 use serde::Serialize;
 
-use crate::bench::error::BenchError;
+use crate::Result;
 use crate::bench::stats::Times;
 
 /// A scene, and the goal of the whole break, s: solids that shatter have a longer one.
@@ -114,7 +114,7 @@ pub struct Findings {
 ///
 /// # Errors
 /// A name that is no scene of the table.
-pub fn chosen(names: &[String]) -> Result<Vec<Subject>, BenchError> {
+pub fn chosen(names: &[String]) -> Result<Vec<Subject>> {
     if names.is_empty() {
         return Ok(SUBJECTS.to_vec());
     }
@@ -122,7 +122,7 @@ pub fn chosen(names: &[String]) -> Result<Vec<Subject>, BenchError> {
         let known = SUBJECTS.iter().find(|s| s.scene == name);
         known.copied().ok_or_else(|| {
             let known: Vec<&str> = SUBJECTS.iter().map(|s| s.scene).collect();
-            BenchError::NotAsMeant(format!(
+            crate::Error::from(format!(
                 "`{name}` is not a body of the gallery's table; the bodies are {}",
                 known.join(", ")
             ))
@@ -139,7 +139,7 @@ pub fn measure(
     subjects: &[Subject],
     runs: usize,
     progress: &mut dyn FnMut(&str, f64),
-) -> Result<Findings, BenchError> {
+) -> Result<Findings> {
     let (mut rows, mut asked) = (Vec::new(), Vec::new());
     for (i, subject) in subjects.iter().enumerate() {
         progress(subject.scene, i as f64 / subjects.len() as f64);
@@ -162,11 +162,11 @@ struct Blow {
 }
 
 impl Blow {
-    fn of(name: &str) -> Result<Self, BenchError> {
+    fn of(name: &str) -> Result<Self> {
         let scene = scene(name)?;
         let baked = bake(&scene)?;
         let first = first_break(&scene, &baked, &mut |_| {})?;
-        let nothing = || BenchError::NotAsMeant(format!("nothing breaks in the scene `{name}`"));
+        let nothing = || crate::Error::from(format!("nothing breaks in the scene `{name}`"));
         let first = first.ok_or_else(nothing)?;
         let spec = scene.bodies.iter().find(|body| body.name == first.name);
         let spec = spec.ok_or_else(nothing)?;
@@ -175,7 +175,7 @@ impl Blow {
         Ok(Self { first, breakables })
     }
 
-    fn row(&self, subject: Subject, runs: usize) -> Result<Row, BenchError> {
+    fn row(&self, subject: Subject, runs: usize) -> Result<Row> {
         let FirstBreak {
             body,
             contacts,
@@ -220,7 +220,7 @@ impl Blow {
     }
 
     /// Asks bodies of other seeds if the blow would break them at other speeds.
-    fn questions(&self, [from, to]: [f64; 2], goal: f64) -> Result<Asked, BenchError> {
+    fn questions(&self, [from, to]: [f64; 2], goal: f64) -> Result<Asked> {
         let contacts = &self.first.contacts;
         let fastest = contacts.iter().map(|c| f64::from(c.approach_speed));
         let fastest = fastest.fold(f64::MIN_POSITIVE, f64::max);
@@ -256,11 +256,7 @@ impl Blow {
     }
 }
 
-fn timed(
-    body: &Body,
-    contacts: &[Contact],
-    config: &FractureConfig,
-) -> Result<(f64, Outcome), BenchError> {
+fn timed(body: &Body, contacts: &[Contact], config: &FractureConfig) -> Result<(f64, Outcome)> {
     let start = Instant::now();
     let outcome = impact(body, black_box(contacts), config)?;
     Ok((start.elapsed().as_secs_f64(), outcome))

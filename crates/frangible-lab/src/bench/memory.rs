@@ -6,8 +6,8 @@ use frangible::internals::asset::SaveOptions;
 use frangible::{Asset, Body, Breakable, FractureConfig, impact};
 use serde::Serialize;
 
+use crate::Result;
 use crate::bench::cache::Cache;
-use crate::bench::error::BenchError;
 use crate::bench::subjects::{MODES, Subject};
 
 /// Number of bodies that are made to count the memory of one.
@@ -57,7 +57,7 @@ pub fn measure(
     subject: &'static Subject,
     cache: &Cache,
     count: &mut dyn FnMut(&mut dyn FnMut()) -> Counted,
-) -> Result<OfBody, BenchError> {
+) -> Result<OfBody> {
     let geometry = || subject.geometry();
     let baked = cache.body(
         subject.file(),
@@ -77,7 +77,7 @@ pub fn measure(
     let mut kind = None;
     let prepared = count(&mut || kind = loaded.take().map(Breakable::uniform));
     let Some(kind) = kind.transpose()? else {
-        return Err(BenchError::NotAsMeant(format!(
+        return Err(crate::Error::from(format!(
             "{} was not loaded",
             subject.name
         )));

@@ -8,7 +8,7 @@ use frangible_bake::{MeshSize, Shape, SolidShape, TetShape};
 use frangible_mesh::ready_shape;
 use serde::Serialize;
 
-use crate::bench::error::BenchError;
+use crate::Result;
 use crate::bench::grid;
 
 /// Modes of every body, as in the paper.
@@ -29,7 +29,7 @@ pub(crate) const PIG_TETS: usize = 21_460;
 pub(crate) const PIG_GROWN: f64 = 3e-4;
 
 /// Shape, analysis mesh, fracture mesh.
-pub(crate) type Geometry = (Shape, Option<MeshSize>, Option<MeshSize>);
+pub type Geometry = (Shape, Option<MeshSize>, Option<MeshSize>);
 
 /// A line of Table 1: one thread of a 2.3 GHz Core2, initiation also on a Quadro FX 3700M.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -46,20 +46,6 @@ pub struct Paper {
     pub propagation: f64,
     /// Fragments, ms.
     pub fragments: f64,
-}
-
-impl Paper {
-    /// Total with initiation on the processor, ms.
-    #[must_use]
-    pub fn cpu(&self) -> f64 {
-        self.initiation_cpu + self.propagation + self.fragments
-    }
-
-    /// Total with initiation on the graphics card, ms: the paper's column "total", but for its rounding.
-    #[must_use]
-    pub fn gpu(&self) -> f64 {
-        self.initiation_gpu + self.propagation + self.fragments
-    }
 }
 
 /// A blow, which the paper does not describe.
@@ -201,15 +187,11 @@ const fn paper(nodes: usize, tets: usize, ms: [f64; 4]) -> Paper {
 ///
 /// # Errors
 /// A name that is none of theirs.
-pub fn chosen(names: &[String]) -> Result<Vec<&'static Subject>, BenchError> {
+pub fn chosen(names: &[String]) -> Result<Vec<&'static Subject>> {
     let known = |name: &String| {
-        SUBJECTS
-            .iter()
-            .find(|s| s.name == name)
-            .ok_or_else(|| BenchError::UnknownBody {
-                name: name.clone(),
-                known: SUBJECTS.map(|s| s.name).join(", "),
-            })
+        let known = SUBJECTS.iter().find(|s| s.name == name);
+        let names = SUBJECTS.map(|s| s.name).join(", ");
+        known.ok_or_else(|| format!("there is no body `{name}`; the bodies are {names}").into())
     };
     if names.is_empty() {
         return Ok(SUBJECTS.iter().collect());
@@ -220,7 +202,10 @@ pub fn chosen(names: &[String]) -> Result<Vec<&'static Subject>, BenchError> {
 impl Subject {
     /// Shape, elements of the analysis mesh and of the fracture mesh; `None` where the bake's default serves or the shape has
     /// its own.
-    pub(crate) fn geometry(&self) -> Result<Geometry, BenchError> {
+    ///
+    /// # Errors
+    /// A body that cannot be meshed.
+    pub fn geometry(&self) -> Result<Geometry> {
         let slab = |x, y| {
             let body = grid::slab(SLAB, [x, y, 2]);
             // As the bake counts the elements that cover a body: 12.6 per cube.
@@ -259,7 +244,7 @@ impl Subject {
     ///
     /// # Errors
     /// None but a preset that is missing.
-    pub fn contact(&self, asset: &Asset, speed: f64) -> Result<Contact, BenchError> {
+    pub fn contact(&self, asset: &Asset, speed: f64) -> Result<Contact> {
         let (low, high) = asset
             .fracture()
             .positions
@@ -283,11 +268,9 @@ impl Subject {
 }
 
 /// A ready solid, grown by so much to all sides, m, in about so many tetrahedra.
-pub(crate) fn solid(name: &str, grown: f64, tets: usize) -> Result<Shape, BenchError> {
+pub(crate) fn solid(name: &str, grown: f64, tets: usize) -> Result<Shape> {
     let Some(solid) = ready_shape(name) else {
-        return Err(BenchError::NotAsMeant(format!(
-            "there is no solid `{name}`"
-        )));
+        return Err(crate::Error::from(format!("there is no solid `{name}`")));
     };
     let mut shape = SolidShape::new(Arc::new(solid.grown(grown)));
     shape.tets = tets;
@@ -298,7 +281,7 @@ pub(crate) fn solid(name: &str, grown: f64, tets: usize) -> Result<Shape, BenchE
 ///
 /// # Errors
 /// None but a preset that is missing.
-pub fn steel_ball(mass: f64) -> Result<Striker, BenchError> {
+pub fn steel_ball(mass: f64) -> Result<Striker> {
     let steel = Material::preset("steel")?;
     let radius = (0.75 * mass / steel.density / std::f64::consts::PI).cbrt();
     Ok(Striker::ball(&steel, mass, radius).with_restitution(0.5))

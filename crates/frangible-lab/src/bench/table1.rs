@@ -8,8 +8,8 @@ use frangible::{Asset, Body, Breakable, Contact, FractureConfig, ImpactReport, O
 use frangible_rapier::{WorldConfig, collision_shape};
 use serde::Serialize;
 
+use crate::Result;
 use crate::bench::cache::{Baked, Cache};
-use crate::bench::error::BenchError;
 use crate::bench::stats::Times;
 use crate::bench::subjects::{MODES, Subject};
 
@@ -49,21 +49,6 @@ pub struct Stages {
     pub total: f64,
     /// Number of runs.
     pub runs: usize,
-}
-
-impl Stages {
-    /// The stage that takes longest.
-    #[must_use]
-    pub fn longest(&self) -> &'static str {
-        let stages = [
-            ("response", self.response),
-            ("displacements", self.displacements),
-            ("stresses and cracks", self.cracks),
-            ("fragments", self.fragments),
-        ];
-        let longest = stages.into_iter().max_by(|a, b| a.1.total_cmp(&b.1));
-        longest.map_or("", |(name, _)| name)
-    }
 }
 
 /// A body in one model.
@@ -133,7 +118,7 @@ pub fn measure(
     cache: &Cache,
     options: &Options,
     progress: &mut dyn FnMut(&str, f64),
-) -> Result<Row, BenchError> {
+) -> Result<Row> {
     let geometry = || subject.geometry();
     let baked = cache.body(subject.file(), MODES, subject.material, geometry, progress)?;
     let contact = subject.contact(&baked.asset, subject.blow.speed)?;
@@ -193,7 +178,7 @@ fn in_model(
     baked: &Baked,
     options: &Options,
     loads: &mut Loads,
-) -> Result<InModel, BenchError> {
+) -> Result<InModel> {
     let contacts = [contact.clone()];
     let mut cold = Vec::new();
     for _ in 0..COLD_RUNS.min(options.runs) {
@@ -235,11 +220,7 @@ fn in_model(
     })
 }
 
-fn timed(
-    body: &Body,
-    contacts: &[Contact],
-    config: &FractureConfig,
-) -> Result<(Stages, Outcome), BenchError> {
+fn timed(body: &Body, contacts: &[Contact], config: &FractureConfig) -> Result<(Stages, Outcome)> {
     let clock = Instant::now();
     let outcome = impact(body, contacts, config)?;
     let total = clock.elapsed().as_secs_f64();

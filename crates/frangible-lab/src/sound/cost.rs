@@ -1,6 +1,5 @@
 //! Computing time of a resonator, beside that of the plainest one.
 
-use std::error::Error;
 use std::hint::black_box;
 use std::sync::Arc;
 use std::time::Instant;
@@ -9,13 +8,16 @@ use frangible_sound::glam::{DQuat, DVec3, Vec3};
 use frangible_sound::{
     AudibleDamping, Listener, Plate, PlateMaterial, SoundPulse, Strike, Synth, SynthConfig,
 };
+use serde::Serialize;
+
+use crate::Result;
 
 /// Samples that are rendered at once, and number of repetitions: the fastest time counts, which nothing else on the machine has held up.
 const FRAMES: usize = 4800;
 const ROUNDS: usize = 40;
 
 /// Time per sample and resonator, ns: of plain two-pole filters one after the other, and of the synthesiser with all that it does.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize)]
 pub struct Cost {
     /// Resonators that ring.
     pub resonators: usize,
@@ -27,7 +29,7 @@ pub struct Cost {
 
 impl Cost {
     /// Lets shards ring on and measures them, with filters as many.
-    pub(super) fn measure() -> Result<Self, Box<dyn Error>> {
+    pub(super) fn measure() -> Result<Self> {
         let ringing = ringing()?;
         let resonators = ringing.resonators();
         let per_sample = |seconds: f64| 1e9 * seconds / (FRAMES * resonators) as f64;
@@ -76,7 +78,7 @@ fn plain(filters: &mut [[f32; 4]], out: &mut [f32]) {
 }
 
 /// Shards of glass that were struck hard a moment ago.
-fn ringing() -> Result<Synth, Box<dyn Error>> {
+fn ringing() -> Result<Synth> {
     let listener = Listener::at(DVec3::new(0.0, 0.4, 1.5), DVec3::ZERO);
     let mut synth = Synth::new(SynthConfig::new(listener))?;
     let (damping, _) = AudibleDamping::published("glass").ok_or("glass has no damping")?;

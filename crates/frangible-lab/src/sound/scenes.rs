@@ -1,12 +1,13 @@
 //! Scenes, played and heard.
 
-use std::error::Error;
-
 use frangible_scenes::{
     Run, Scene, Sources, bake, energy_lost, energy_radiated, play, scene, sound, sound_config,
     sound_of,
 };
-use frangible_sound::{Listener, SPEED_OF_SOUND, SoundError};
+use frangible_sound::{Listener, SPEED_OF_SOUND};
+use serde::Serialize;
+
+use crate::Result;
 
 /// The scenes.
 pub(super) const NAMES: [&str; 6] = ["glass", "plate", "brick", "chocolate", "piggy-bank", "wall"];
@@ -15,7 +16,7 @@ pub(super) const NAMES: [&str; 6] = ["glass", "plate", "brick", "chocolate", "pi
 const HEIGHTS: [f64; 3] = [0.4, 0.8, 1.6];
 
 /// A scene and its sound.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct HeardScene {
     /// Its name.
     pub name: String,
@@ -36,6 +37,7 @@ pub struct HeardScene {
     /// Times of the blows, s.
     pub blows: Vec<f64>,
     /// Left channel.
+    #[serde(skip)]
     pub samples: Vec<f32>,
     /// Energy that the scene lost, J.
     pub lost: f64,
@@ -49,7 +51,7 @@ pub(super) const FAST: f64 = 0.125;
 
 impl HeardScene {
     /// Bakes, plays and hears a built-in scene.
-    pub(super) fn compute(name: &str) -> Result<Self, Box<dyn Error>> {
+    pub(super) fn compute(name: &str) -> Result<Self> {
         let scene = scene(name)?;
         let baked = bake(&scene)?;
         let run = play(&scene, &baked, &mut |_| {})?;
@@ -108,7 +110,7 @@ impl HeardScene {
 }
 
 /// Measures of the sources of a scene at 1 m from the camera's target, as in [`HeardScene::sources`].
-fn sources(run: &Run, scene: &Scene) -> Result<[[f64; 3]; 5], SoundError> {
+fn sources(run: &Run, scene: &Scene) -> Result<[[f64; 3]; 5]> {
     let mut config = sound_config(run, scene);
     let target = run.recording.camera.target.as_dvec3();
     let away = (config.listener.place - target).normalize();
@@ -149,7 +151,7 @@ pub(super) const SEEDS: u64 = 8;
 pub type Drop = [f64; 3];
 
 /// The glass dropped from some heights.
-pub(super) fn drops() -> Result<Vec<Drop>, Box<dyn Error>> {
+pub(super) fn drops() -> Result<Vec<Drop>> {
     let mut drops = Vec::new();
     for height in HEIGHTS {
         let mut scene = scene("glass")?;

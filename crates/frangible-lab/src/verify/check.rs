@@ -1,7 +1,10 @@
 //! One comparison with a reference.
 
+use serde::Serialize;
+use serde_json::{Value, json};
+
 /// A computed value and its reference.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Check {
     /// Name of the quantity, unique within its case.
     pub name: String,
@@ -26,6 +29,14 @@ impl Check {
         } else {
             (self.value / self.reference - 1.0).abs()
         }
+    }
+
+    /// The numbers of the check, with its error.
+    #[must_use]
+    pub fn data(&self) -> Value {
+        let mut data = json!(self);
+        data["error"] = json!(self.error());
+        data
     }
 
     /// Returns true if the error is within the tolerance. A NaN never is.

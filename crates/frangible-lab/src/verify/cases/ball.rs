@@ -13,10 +13,6 @@ const RADIUS: f64 = 0.05;
 pub(crate) const CASE: Case = Case {
     name: "ball",
     title: "Solid ball",
-    about: "A glass ball of 50 mm radius by its signed distance, through the whole bake: filled with tetrahedra, its modes on \
-        a lattice of quadratic elements that covers it. The gravest modes of a ball are ₀T₂, a twist of one half against the \
-        other, and ₀S₂, the football mode, five of each; on a mesh without the ball's symmetry the five spread a little: the \
-        lowest and highest are compared.",
     compute,
 };
 

@@ -17,11 +17,6 @@ const SIDE: f64 = 0.03;
 pub(crate) const CASE: Case = Case {
     name: "bar",
     title: "Free bar",
-    about: "A square glass bar, 500 × 30 × 30 mm (E 70 GPa, ν 0.23, ρ 2500 kg/m³). Bending: Timoshenko's beam, with rotary inertia \
-        and shear (Euler and Bernoulli's is 1.3 % higher here). Stretching: c/(2L) with c = √(E/ρ); the lateral motion that the \
-        formula leaves out lowers it by some per mille. Twisting: √(μJ/(ρI_p))/(2L) with J = 0.1406 a⁴. *Mesh*: quadratic elements \
-        15 mm long, two layers, with lumped mass (HRZ); two layers give too large a moment of inertia to a twist, \
-        hence the wider tolerance there. *Lattice*: about 1000 elements of a covering lattice, consistent mass.",
     compute,
 };
 

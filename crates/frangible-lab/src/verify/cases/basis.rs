@@ -15,10 +15,6 @@ const WANTED: usize = 60;
 pub(crate) const CASE: Case = Case {
     name: "basis",
     title: "Modal basis",
-    about: "Sixty modes of a free bowl: mass-normalised, Φᵀ M Φ = I, without any rigid motion, and solutions: the residual \
-        ‖Kφ − λMφ‖ of each stays below max(10⁻⁸ ‖Kφ‖, 10 ε ‖|K||φ|‖), the second being what rounding alone may leave; it \
-        is given in units of that limit. And the dense spectrum of K of a small block has six null eigenvalues, no \
-        more, whatever the elements: those below 10⁻⁹ of the largest are counted.",
     compute,
 };
 

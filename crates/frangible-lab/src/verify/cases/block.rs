@@ -13,10 +13,6 @@ const SIZE: [f64; 3] = [0.1, 0.08, 0.05];
 pub(crate) const CASE: Case = Case {
     name: "block",
     title: "Free block",
-    about: "A glass block, 100 × 80 × 50 mm: where no beam or plate theory holds. The reference is a Ritz series of Legendre \
-        polynomials up to degree 10 in all three directions, the method by which resonant ultrasound spectroscopy measures \
-        elastic constants; it has no elements. *Mesh*: quadratic elements 10 mm long with lumped mass (HRZ), which makes all \
-        modes that turn the elements a little low. *Lattice*: a covering lattice of about 1500 elements with its consistent mass.",
     compute,
 };
 

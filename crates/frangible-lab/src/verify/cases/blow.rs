@@ -16,12 +16,6 @@ use crate::verify::check::{Check, number};
 pub(crate) const CASE: Case = Case {
     name: "blow",
     title: "A blow, integrated",
-    about: "A striker is integrated against the modes of a body, the wall oscillators and Hertz' spring. On a plate of PMMA \
-        (200 × 200 × 1 mm, simply supported, 100 modes, Kirchhoff's waves) it meets Zener's infinite plate, a dashpot 8 √(Dμ) behind Hertz' spring, until the first echo: force over \
-        time, and restitution over λ = m/(Z T), T = (m/(K √v))^(2/5), of steel balls of several sizes (1 m/s). On a heavy block of glass \
-        (50 mm, ball of 1 mm at 5 m/s) it is Hertz' blow, on the end of a free rod of glass (400 × 4 × 4 mm, a striker of the \
-        rod's mass) St Venant's: its waves come back before the striker leaves. Reference: both laws with Hertz' spring, by Runge and Kutta. \
-        Without damping, what the striker loses is in modes and oscillators: the share that is missing, by substep.",
     compute,
 };
 

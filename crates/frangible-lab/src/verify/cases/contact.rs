@@ -28,10 +28,6 @@ const STEEL: Elasticity = Elasticity {
 pub(crate) const CASE: Case = Case {
     name: "contact",
     title: "Contact",
-    about: "Two steel spheres (E 200 GPa, ν 0.29, ρ 7850 kg/m³) of 25 and 10 mm radius meet at 3 m/s. Hertz: the force is 4/3 E* √R* δ^(3/2), \
-        so the contact lasts 2.868 (m*²/(E*² R* v))^(1/5). The constant is 2 √π Γ(7/5)/Γ(9/10) (15/16)^(2/5); the law is \
-        integrated as well. Then the larger sphere is baked and hit: duration, curvature and effective mass come from its mesh. \
-        Its half-sine pulse carries the impulse φ: ∫ f dt by Simpson's rule.",
     compute,
 };
 

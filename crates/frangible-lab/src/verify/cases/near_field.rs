@@ -14,12 +14,6 @@ use crate::verify::check::{Check, number};
 pub(crate) const CASE: Case = Case {
     name: "near-field",
     title: "Near field of a blow",
-    about: "A steel ball of 4 mm hits the middle of a plate of PMMA (100 × 100 × 1 mm, simply supported) at 20 m/s. The force is the one \
-        that the integrated blow found, and its contact radius too; the reference is the double series of all modes of the plate under \
-        this force, spread as Hertz' pressure. Radial, hoop and total stress of the far face are compared outside the contact, along a \
-        side and along a diagonal, a little before the peak of the force, at it and at half of it thereafter; the hoop stress at places is that at the peak. *Thin*: Kirchhoff's \
-        plate and waves; *layer*: the default. 4 % of 100 modes: the elements, 2 mm, are off by that much for the shortest of them \
-        (with 3 mm it is 7 %). Tensions of a steady load on 0.2 thicknesses are held to an exact elastic layer by a test of the library, within 1 %.",
     compute,
 };
 

@@ -21,11 +21,6 @@ const TOLERANCE: f64 = 1e-10;
 pub(crate) const CASE: Case = Case {
     name: "oscillator",
     title: "One mode under a half-sine",
-    about: "q̈ + d q̇ + λ q = sin(ut) for 0 ≤ t ≤ t_d = π/u = 1 ms, free after that, from rest: the largest displacement (of a unit force per √kg, hence in s²) at 40 \
-        moments until 2 t_d by the recurrence of the run time, which takes 20 steps in the contact, against an adaptive \
-        Runge–Kutta pair (Dormand and Prince) at a relative tolerance of 10⁻¹⁰ per step. √λ = 4000 rad/s, or u at resonance, \
-        where the textbook's quotient is 0/0. The farthest of all moments and cases is given in units of the largest \
-        displacement, or of √λ times it. Last: an undamped oscillator after a pulse of 0.1 µs swings as after an impulse, with the amplitude φ/ω.",
     compute,
 };
 

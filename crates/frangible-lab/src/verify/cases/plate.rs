@@ -16,10 +16,6 @@ const COEFFICIENTS: [f64; 5] = [13.47, 19.60, 24.27, 34.80, 34.80];
 pub(crate) const CASE: Case = Case {
     name: "plate",
     title: "Free square plate",
-    about: "A thin plate, 400 × 400 × 4 mm, ν 0.3: the first five values of ω a² √(ρh/D), D = E h³/(12 (1 − ν²)), with one \
-        layer of quadratic elements. Leissa's survey gives 13.47 to 13.49, 19.60 to 19.79 and 24.27 to 24.43 for the first three, \
-        the Ritz series from above; the limits are taken. 16 × 16 squares are about as many as a bake takes; *lattice*: \
-        about 3000 elements of a lattice that covers the plate.",
     compute,
 };
 

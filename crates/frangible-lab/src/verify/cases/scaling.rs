@@ -14,8 +14,6 @@ const WANTED: usize = 20;
 pub(crate) const CASE: Case = Case {
     name: "scaling",
     title: "Scaling laws",
-    about: "Twenty modes of a block, computed anew with E × 3, ρ × 2 and size × 2: λ goes with E/ρ and with size⁻², the mode \
-        shapes with ρ^-½ and size^-3/2. Of the twenty the one farthest from the law is shown.",
     compute,
 };
 

@@ -14,10 +14,6 @@ use crate::verify::check::{Check, number};
 pub(crate) const CASE: Case = Case {
     name: "two-bodies",
     title: "Two bodies that both vibrate",
-    about: "The gap of a contact holds the vibration of both bodies, and both feel one force. Two free rods of glass (400 × 4 × 4 mm, 240 modes each) meet end \
-        to end at 4 m/s behind Hertz' spring: each end gives way at F/ρcA until its wave is back, so that the rods exchange their speeds \
-        after the wave's way there and back. Two heavy blocks of glass (50 mm, 60 modes each) touch at 0.1 m/s on a radius of 0.5 mm: all modes \
-        answer far faster than the contact lasts, which leaves Hertz' blow of two bodies.",
     compute,
 };
 

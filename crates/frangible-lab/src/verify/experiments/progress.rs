@@ -2,18 +2,17 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Hears the share done, 0..=1, from any thread.
-pub type Hear<'a> = &'a (dyn Fn(f64) + Sync);
+use crate::Progress;
 
 /// Counts the finished parts of something.
 pub(crate) struct Counter<'a> {
     done: AtomicUsize,
     all: usize,
-    hear: Hear<'a>,
+    hear: Progress<'a>,
 }
 
 impl<'a> Counter<'a> {
-    pub(crate) fn new(all: usize, hear: Hear<'a>) -> Self {
+    pub(crate) fn new(all: usize, hear: Progress<'a>) -> Self {
         hear(0.0);
         Self {
             done: AtomicUsize::new(0),

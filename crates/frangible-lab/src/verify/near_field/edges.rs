@@ -3,6 +3,7 @@
 use frangible::glam::DVec3;
 use frangible::{Asset, FractureConfig};
 use frangible_bake::{BakeError, BakeSpec, MeshSize, Region, Shape, Support, bake};
+use serde::Serialize;
 
 use crate::verify::blows::plate::Terms;
 use crate::verify::blows::probe::{
@@ -11,14 +12,14 @@ use crate::verify::blows::probe::{
 use crate::verify::cases::near_field::Compared;
 
 /// Distances of the contact from the edge, in shortest wavelengths of the modes.
-pub(super) const SHARES: [f64; 4] = [1.0, 0.5, 0.25, 0.1];
+const SHARES: [f64; 4] = [1.0, 0.5, 0.25, 0.1];
 
 /// Modes of the free and of the held plate that stand for all, and of which so many are followed.
 const MODES: usize = 300;
 const FOLLOWED: usize = 75;
 
 /// Largest difference of the total stress over its peak, by distance from the edge.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub(super) struct EdgeRow {
     pub(super) name: String,
     pub(super) errors: Vec<f64>,
@@ -63,7 +64,7 @@ pub(super) fn compute(plate: &Asset) -> Result<Vec<EdgeRow>, BakeError> {
 }
 
 /// 2π/k_c of so many modes of the plate: k_c² = 4πN/A.
-pub(super) fn wavelength_of(modes: usize) -> f64 {
+fn wavelength_of(modes: usize) -> f64 {
     let pi = std::f64::consts::PI;
     2.0 * pi / (4.0 * pi * modes as f64).sqrt() * PLATE.side
 }

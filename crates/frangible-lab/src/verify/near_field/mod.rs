@@ -3,17 +3,16 @@
 //! Here nothing passes or fails; the cases `near-field` and `blow` do that.
 
 mod edges;
-mod page;
 mod residual;
 
 use frangible::internals::near_field::PlateTheory;
 use frangible::{Contact, FractureConfig, glam::Vec3};
-use frangible_bake::BakeError;
+use serde::Serialize;
 
-use crate::verify::VerifyError;
 use crate::verify::blows::plate::Terms;
 use crate::verify::blows::probe::{self, PLATE, Place, about, body, felt, following, places};
 use crate::verify::cases::blow::{force_on_plate, restitution_at, thin};
+use crate::{Progress, Result};
 use edges::EdgeRow;
 use residual::ResidualRow;
 
@@ -21,79 +20,113 @@ use residual::ResidualRow;
 const FORCE: f64 = 100.0;
 const DURATION: f64 = 54e-6;
 
-/// Distances of the table, and of the picture, m.
+/// Distances of the table, m.
 const COLUMNS: [f64; 5] = [1e-3, 2e-3, 4e-3, 8e-3, 16e-3];
 
 /// Times at which Zener's force is compared, s.
 const TIMES: [f64; 5] = [5e-6, 10e-6, 30e-6, 60e-6, 100e-6];
 
-/// Results of the page.
-#[derive(Clone, Debug)]
+/// Results of the measurement.
+#[derive(Clone, Debug, Serialize)]
 pub struct NearField {
     /// Radius of the contact of the half-sine, m.
-    radius: f64,
+    radius_m: f64,
     /// Hoop stress at the middle of a half-sine.
     stress: Vec<StressRow>,
-    /// Force on the plate, N: computed and Zener's, at `TIMES`, and the peaks.
-    force: Vec<[f64; 2]>,
-    peak: [f64; 2],
-    /// λ, restitution computed and Zener's.
-    restitution: Vec<[f64; 3]>,
+    /// Force on the plate at `TIMES`.
+    force: Vec<ForceRow>,
+    /// Its largest value, computed and Zener's, N.
+    peak_n: [f64; 2],
+    restitution: Vec<RestitutionRow>,
     edges: Vec<EdgeRow>,
     residual: Vec<ResidualRow>,
 }
 
-/// Hoop stress over the distance, MPa.
-#[derive(Clone, Debug)]
+/// Hoop stress over the distance.
+#[derive(Clone, Debug, Serialize)]
 struct StressRow {
     name: String,
     /// Distance, m, and stress, MPa.
-    points: Vec<(f64, f64)>,
+    points: Vec<[f64; 2]>,
+    /// The points next to the distances of the table.
+    columns: Vec<[f64; 2]>,
+}
+
+/// Force of a ball on a plate, computed and by Zener.
+#[derive(Clone, Debug, Serialize)]
+struct ForceRow {
+    time_s: f64,
+    computed_n: f64,
+    zener_n: f64,
+}
+
+/// Restitution of a ball on a plate over Zener's λ.
+#[derive(Clone, Debug, Serialize)]
+struct RestitutionRow {
+    inelasticity: f64,
+    computed: f64,
+    zener: f64,
 }
 
 impl NearField {
-    /// Computes everything: half a minute. `hear` receives the share done, 0..=1.
+    /// Computes everything: half a minute.
     ///
     /// # Errors
     /// An error of the bake or of the fracture code.
-    pub fn compute(hear: &mut dyn FnMut(f64)) -> Result<Self, VerifyError> {
-        Self::computed(hear).map_err(|source| VerifyError::Bake {
-            case: "near-field",
-            source,
-        })
-    }
-
-    fn computed(hear: &mut dyn FnMut(f64)) -> Result<Self, BakeError> {
+    pub fn compute(hear: Progress<'_>) -> Result<Self> {
         let plate = probe::plate()?;
         hear(0.15);
-        let (radius, stress) = stress(&plate)?;
+        let (radius_m, stress) = stress(&plate)?;
         let wide = probe::wide_plate()?;
         hear(0.3);
-        let (force, peak) = force_on_plate(&wide, &thin(), &TIMES)?;
+        let (force, peak_n) = force_on_plate(&wide, &thin(), &TIMES)?;
+        let force = TIMES.into_iter().zip(force);
+        let force = force.map(|(time_s, [computed_n, zener_n])| ForceRow {
+            time_s,
+            computed_n,
+            zener_n,
+        });
         let mut restitution = Vec::new();
         for inelasticity in [0.1, 0.25, 0.5, 1.0, 2.0] {
-            let [found, exact] = restitution_at(&wide, inelasticity, &thin())?;
-            restitution.push([inelasticity, found, exact]);
+            let [computed, zener] = restitution_at(&wide, inelasticity, &thin())?;
+            restitution.push(RestitutionRow {
+                inelasticity,
+                computed,
+                zener,
+            });
         }
         hear(0.4);
         let edges = edges::compute(&plate)?;
         hear(0.7);
-        let residual = residual::compute()?;
-        hear(1.0);
         Ok(Self {
-            radius,
+            radius_m,
             stress,
-            force,
-            peak,
+            force: force.collect(),
+            peak_n,
             restitution,
             edges,
-            residual,
+            residual: residual::compute()?,
         })
     }
 }
 
+impl StressRow {
+    fn new(name: impl Into<String>, points: Vec<[f64; 2]>) -> Self {
+        let off = |p: &&[f64; 2], r: f64| (p[0] - r).abs();
+        let nearest = |r: f64| {
+            let points = points.iter();
+            points.min_by(|a, b| off(a, r).total_cmp(&off(b, r)))
+        };
+        Self {
+            name: name.into(),
+            columns: COLUMNS.into_iter().filter_map(nearest).copied().collect(),
+            points,
+        }
+    }
+}
+
 /// Hoop stress of the plate of the tables in the middle of a half-sine: of the series, of modes and of modes with their near field.
-fn stress(plate: &frangible::Asset) -> Result<(f64, Vec<StressRow>), BakeError> {
+fn stress(plate: &frangible::Asset) -> Result<(f64, Vec<StressRow>)> {
     let impulse = 2.0 / std::f64::consts::PI * FORCE * DURATION;
     let top = Vec3::new(0.0, 0.0, 0.5 * PLATE.thickness as f32);
     let contact = Contact::push(top, impulse as f32 * Vec3::NEG_Z, DURATION as f32);
@@ -129,25 +162,14 @@ fn stress(plate: &frangible::Asset) -> Result<(f64, Vec<StressRow>), BakeError> 
                 let points: Vec<[f64; 2]> = seen.iter().map(|p| p.at).collect();
                 let load = (&report.force[..], blow.time_step(), radius);
                 let exact = &PLATE.stress(Terms::Thin, [0.0; 2], load, &points, &[step])[0];
-                let points = seen
-                    .iter()
-                    .zip(exact)
-                    .map(|(p, s)| (p.distance, hoop(p, *s)));
-                rows.insert(
-                    0,
-                    StressRow {
-                        name: "all modes (series)".into(),
-                        points: points.collect(),
-                    },
-                );
+                let points = seen.iter().zip(exact);
+                let points = points.map(|(p, s)| [p.distance, hoop(p, *s)]);
+                rows.insert(0, StressRow::new("all modes (series)", points.collect()));
             }
             let points = seen
                 .iter()
-                .map(|p| (p.distance, hoop(p, felt(&body, &blow, p, step, &config))));
-            rows.push(StressRow {
-                name: format!("{modes} {label}"),
-                points: points.collect(),
-            });
+                .map(|p| [p.distance, hoop(p, felt(&body, &blow, p, step, &config))]);
+            rows.push(StressRow::new(format!("{modes} {label}"), points.collect()));
         }
     }
     Ok((radius, rows))

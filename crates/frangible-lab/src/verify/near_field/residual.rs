@@ -4,14 +4,15 @@ use frangible::glam::Vec3;
 use frangible::internals::stress::largest_eigenvalue;
 use frangible::{Asset, Body, Contact, FractureConfig, Material, Striker};
 use frangible_bake::{BakeError, BakeSpec, Shape, bake};
+use serde::Serialize;
 
 use crate::verify::blows::probe::{blow, body, following};
 
 /// Modes of each body.
-pub(super) const MODES: usize = 400;
+const MODES: usize = 400;
 
 /// Peak stress over that of all modes.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub(super) struct ResidualRow {
     pub(super) name: &'static str,
     pub(super) followed: usize,
