@@ -1,12 +1,14 @@
 //! Work that takes too long for a tick: it is done on a thread of its own, and its result is taken at a tick that is known beforehand.
 
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
 
 use frangible::glam::Vec3;
 use frangible::internals::{Force, Vibration, rest};
 use frangible::{Body, FractureConfig, InputError, Outcome};
+
+/// Ticks from a question to its verdict: twice the time that a break of 8 000 tetrahedra takes one core.
+pub(crate) const DELAY: u64 = 24;
 
 /// A case to decide about a body.
 pub(crate) enum Case {
@@ -16,45 +18,23 @@ pub(crate) enum Case {
     Press(Force),
 }
 
-/// Cracks, pieces and surfaces on another thread.
+/// Cracks, pieces and surfaces on another thread, one case at a time.
 pub(crate) struct Judge {
-    cases: Option<Sender<(Arc<Body>, Case)>>,
-    verdicts: Receiver<Result<Outcome, InputError>>,
-    thread: Option<JoinHandle<()>>,
+    config: FractureConfig,
     /// Given, not handed over yet.
     given: Option<(Arc<Body>, Case)>,
-    /// Verdict that has come already.
-    ready: Option<Result<Outcome, InputError>>,
+    work: Option<JoinHandle<Result<Outcome, InputError>>>,
     /// Tick at which the verdict on the case at hand is taken.
     due: Option<u64>,
-    delay: u64,
 }
 
 impl Judge {
-    /// Begins a thread; every verdict is taken `delay` ticks after its case was given.
-    pub(crate) fn new(config: FractureConfig, delay: u64) -> Self {
-        let (cases, to_judge) = channel::<(Arc<Body>, Case)>();
-        let (judged, verdicts) = channel();
-        let thread = std::thread::spawn(move || {
-            for (body, case) in to_judge {
-                let verdict = match case {
-                    Case::Impact(vibration) => Ok(vibration.end(&body, &config, 0)),
-                    Case::Press(force) => rest(&body, &[force], Vec3::ZERO, &config),
-                };
-                // Whoever asked may be gone.
-                if judged.send(verdict).is_err() {
-                    return;
-                }
-            }
-        });
+    pub(crate) fn new(config: FractureConfig) -> Self {
         Self {
-            cases: Some(cases),
-            verdicts,
-            thread: Some(thread),
+            config,
             given: None,
-            ready: None,
+            work: None,
             due: None,
-            delay,
         }
     }
 
@@ -67,16 +47,18 @@ impl Judge {
     pub(crate) fn ask(&mut self, tick: u64, body: &Arc<Body>, case: Case) {
         if self.due.is_none() {
             self.given = Some((Arc::clone(body), case));
-            self.due = Some(tick + self.delay);
+            self.due = Some(tick + DELAY);
         }
     }
 
-    /// Wakes the other thread, where there is something to do for it. After the tick's answer is out: on a machine whose cores
-    /// are all taken the thread that wakes another may have to wait for it.
+    /// Begins the work, where there is some. After the tick's answer is out: to start a thread takes longer than a tick should.
     pub(crate) fn hand_over(&mut self) {
-        if let (Some(cases), Some(case)) = (&self.cases, self.given.take()) {
-            // The thread ends only with this value.
-            let _ = cases.send(case);
+        if let Some((body, case)) = self.given.take() {
+            let config = self.config.clone();
+            self.work = Some(std::thread::spawn(move || match case {
+                Case::Impact(vibration) => Ok(vibration.end(&body, &config, 0)),
+                Case::Press(force) => rest(&body, &[force], Vec3::ZERO, &config),
+            }));
         }
     }
 
@@ -86,19 +68,8 @@ impl Judge {
     }
 
     /// Returns true if the verdict has come.
-    pub(crate) fn is_ready(&mut self) -> bool {
-        if self.ready.is_none() {
-            self.ready = self.verdicts.try_recv().ok();
-        }
-        self.ready.is_some()
-    }
-
-    /// Waits until the verdict has come: for loops that do not keep time with the clock.
-    pub(crate) fn wait(&mut self) {
-        self.hand_over();
-        if self.is_busy() && self.ready.is_none() {
-            self.ready = self.verdicts.recv().ok();
-        }
+    pub(crate) fn is_ready(&self) -> bool {
+        self.work.as_ref().is_some_and(JoinHandle::is_finished)
     }
 
     /// The verdict that is due at this tick; waits for it if it is not ready.
@@ -106,17 +77,8 @@ impl Judge {
         if !self.is_due(tick) {
             return None;
         }
-        self.wait();
+        self.hand_over();
         self.due = None;
-        self.ready.take()
-    }
-}
-
-impl Drop for Judge {
-    fn drop(&mut self) {
-        self.cases = None;
-        if let Some(thread) = self.thread.take() {
-            let _ = thread.join();
-        }
+        self.work.take()?.join().ok()
     }
 }

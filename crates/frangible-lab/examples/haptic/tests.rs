@@ -7,8 +7,9 @@ use frangible_bake::mode_field::mode_on_fracture_mesh;
 use frangible_bake::{BakeSpec, MeshSize, Shape, bake};
 use frangible_lab::bench::subjects::steel_ball;
 
+use crate::judge::DELAY;
 use crate::live::{LiveModes, SurfacePlace};
-use crate::touch::{DELAY, Felt, Kind, Probe, Touch};
+use crate::touch::{Felt, Kind, Probe, Touch};
 
 const RADIUS: f32 = 0.0158;
 

@@ -5,7 +5,7 @@
 //!   is not looked for anew, so that it is not pushed out on the other side of a thin body.
 //! - The surface gives way by its vibration under that force: quasi-static and dynamic, exact over the tick ([`LiveModes`]).
 //! - The first tick of a contact is a blow: the impulse that rigid bodies exchange at the speed of approach, in the time that two
-//!   elastic bodies take. Most are refused at once. Else cracks and pieces are made on another thread, to be there [`DELAY`] ticks
+//!   elastic bodies take. Most are refused at once. Else cracks and pieces are made on another thread, to be there [`DELAY`](crate::judge::DELAY) ticks
 //!   later.
 //! - One question at a time: until it is answered the body is whole, and no other blow is asked about.
 //! - In the other ticks of a contact the force presses. One number per body clears that nearly always.
@@ -21,9 +21,6 @@ use crate::live::{LiveModes, SurfacePlace};
 
 /// Length of a tick, s.
 pub(crate) const TICK: f64 = 1e-3;
-
-/// Ticks from a blow to its pieces: twice the time that a break of 8 000 tetrahedra takes one core.
-pub(crate) const DELAY: u64 = 24;
 
 /// Tip of the probe, and the spring and damper of its contact.
 #[derive(Clone, Debug)]
@@ -115,7 +112,7 @@ impl Touch {
             inside: false,
             gone: false,
             tick: 0,
-            judge: Judge::new(config.clone(), DELAY),
+            judge: Judge::new(config.clone()),
         })
     }
 

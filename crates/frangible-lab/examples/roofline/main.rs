@@ -17,10 +17,9 @@ use frangible_lab::bench::cache::Cache;
 use frangible_lab::bench::subjects::{MODES, Subject, chosen};
 use frangible_lab::data::{Measures, stored};
 use frangible_lab::{Error, Result};
-use serde::Serialize;
-use serde_json::json;
+use serde_json::{Value, json};
 
-use peak::{Arithmetic, Memory, SIZES};
+use peak::Arithmetic;
 
 /// Bodies that are measured where none is named.
 const BODIES: [&str; 3] = ["glass", "slab-moderate", "rabbit"];
@@ -35,52 +34,24 @@ const BATCHES: usize = 2;
 const BUDGET: Duration = Duration::from_secs(2);
 const NAP: Duration = Duration::from_millis(2);
 
-/// A stage beside its roofline.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-struct Reached {
-    /// Name of the stage.
-    stage: &'static str,
-    /// Arithmetic it needs, operations.
-    operations: f64,
-    /// Bytes it needs.
-    bytes: f64,
-    /// Size of the memory they lie in, bytes.
-    working_set: usize,
-    /// The peak of its arithmetic, operations a second.
-    peak: f64,
-    /// Reading memory of that size, bytes a second.
-    bandwidth: f64,
-    /// Measured time, s.
-    seconds: f64,
-    /// Share of the roofline.
-    share: f64,
+/// A stage beside its roofline. `need`: operations and bytes; `roof`: operations a second, and size of the memory that holds the bytes.
+fn reached(stage: &str, need: [f64; 2], roof: (f64, usize), seconds: f64) -> Value {
+    let bandwidth = peak::read(roof.1);
+    json!({
+        "stage": stage,
+        "operations": need[0],
+        "bytes": need[1],
+        "working_set_bytes": roof.1,
+        "peak_per_s": roof.0,
+        "bandwidth_bytes_per_s": bandwidth,
+        "seconds": seconds,
+        "share": share(need, [roof.0, bandwidth], seconds),
+    })
 }
 
-impl Reached {
-    /// Sets the share of the roofline that is reached: the longer of the times that arithmetic and memory allow, over the measured time.
-    fn with_share(mut self) -> Self {
-        let arithmetic = self.operations / self.peak;
-        let memory = self.bytes / self.bandwidth;
-        self.share = arithmetic.max(memory) / self.seconds;
-        self
-    }
-}
-
-/// The stages of a body.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-struct OfBody {
-    /// Its name.
-    body: &'static str,
-    /// Time steps.
-    steps: usize,
-    /// Modes.
-    modes: usize,
-    /// Nodes of the analysis mesh whose displacements are needed, and all.
-    nodes: [usize; 2],
-    /// Weak points: inside, beside a free surface, at an edge.
-    points: [usize; 3],
-    /// Each stage.
-    stages: Vec<Reached>,
+/// Share of the roofline that is reached: the longer of the times that arithmetic and memory allow, over the measured time.
+fn share(need: [f64; 2], rates: [f64; 2], seconds: f64) -> f64 {
+    (need[0] / rates[0]).max(need[1] / rates[1]) / seconds
 }
 
 /// Measures the machine, then bodies in the paper's model, every weak point at every time step.
@@ -94,24 +65,17 @@ fn main() -> Result<()> {
         rebake: false,
     };
     let arithmetic = Arithmetic::measure();
-    let memory = SIZES.map(|(_, size)| Memory::measure(size));
     let bodies = chosen(&names)?.into_iter();
     let bodies = bodies.map(|subject| of_body(subject, &cache, &arithmetic));
-    let bodies: Vec<OfBody> = bodies.collect::<Result<_>>()?;
-    let found = json!({ "arithmetic": arithmetic, "memory": memory, "bodies": bodies });
+    let bodies: Vec<Value> = bodies.collect::<Result<_>>()?;
+    let found = json!({ "arithmetic": arithmetic, "bodies": bodies });
     println!("{:#}", stored(Measures::Model, true, &found)?);
     Ok(())
 }
 
-fn of_body(subject: &'static Subject, cache: &Cache, arithmetic: &Arithmetic) -> Result<OfBody> {
+fn of_body(subject: &Subject, cache: &Cache, arithmetic: &Arithmetic) -> Result<Value> {
     let geometry = || subject.geometry();
-    let baked = cache.body(
-        subject.file(),
-        MODES,
-        subject.material,
-        geometry,
-        &mut |_, _| {},
-    )?;
+    let baked = cache.body(subject.file(), MODES, subject.material, geometry)?;
     let contact = subject.contact(&baked.asset, subject.blow.speed_ours)?;
     let mut asset = baked.asset;
     asset.parts_mut().material.strength *= TOUGHER;
@@ -136,49 +100,52 @@ fn of_body(subject: &'static Subject, cache: &Cache, arithmetic: &Arithmetic) ->
     let all = work.nodes[1];
     let shapes = 12 * modes * all;
     let fields = counts::NODE * all + 10 * 8 * body.asset().analysis().elements.len();
-    let bandwidth = |size: usize| Memory::measure(size).read;
-    let stages = vec![
-        Reached {
-            stage: "response of the modes (f64)",
-            operations: counts::response(modes, steps),
-            bytes: counts::response_bytes(modes, steps),
-            working_set: 4 * modes * steps,
-            peak: arithmetic.double,
-            bandwidth: bandwidth(4 * modes * steps),
-            seconds: shortest(|| {
-                std::hint::black_box(whole.motion(&body));
-            }),
-            share: 0.0,
-        },
-        Reached {
-            stage: "displacements u = Φ q",
-            operations: batches * all as f64 * counts::displacement(modes),
-            bytes: batches * all as f64 * counts::displacement_bytes(modes),
-            working_set: shapes,
-            peak: arithmetic.separate,
-            bandwidth: bandwidth(shapes),
-            seconds: product,
-            share: 0.0,
-        },
-        Reached {
-            stage: "gradients, stresses, bounds",
-            operations: batches * work.operations,
-            bytes: batches * work.points.iter().sum::<usize>() as f64 * counts::weak_point_bytes(),
-            working_set: fields,
-            peak: arithmetic.separate,
-            bandwidth: bandwidth(fields),
-            seconds: stresses,
-            share: 0.0,
-        },
+    let response = shortest(|| {
+        std::hint::black_box(whole.motion(&body));
+    });
+    let (nodes, points) = (
+        batches * all as f64,
+        work.points.iter().sum::<usize>() as f64,
+    );
+    let needs = [
+        [
+            counts::response(modes, steps),
+            counts::response_bytes(modes, steps),
+        ],
+        [
+            nodes * counts::displacement(modes),
+            nodes * counts::displacement_bytes(modes),
+        ],
+        [
+            batches * work.operations,
+            batches * points * counts::weak_point_bytes(),
+        ],
     ];
-    Ok(OfBody {
-        body: subject.name,
-        steps,
-        modes,
-        nodes: work.nodes,
-        points: work.points,
-        stages: stages.into_iter().map(Reached::with_share).collect(),
-    })
+    let f32s = arithmetic.separate;
+    let stages = [
+        reached(
+            "response of the modes",
+            needs[0],
+            (arithmetic.double, 4 * modes * steps),
+            response,
+        ),
+        reached("displacements", needs[1], (f32s, shapes), product),
+        reached(
+            "gradients, stresses, bounds",
+            needs[2],
+            (f32s, fields),
+            stresses,
+        ),
+    ];
+    // Nodes: those whose displacements are needed, and all; weak points: inside, beside a free surface, at an edge.
+    Ok(json!({
+        "body": subject.name,
+        "steps": steps,
+        "modes": modes,
+        "nodes": work.nodes,
+        "points": work.points,
+        "stages": stages,
+    }))
 }
 
 /// Work of an analysis of every weak point.
@@ -266,20 +233,11 @@ fn shortest(mut run: impl FnMut()) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::Reached;
+    use super::share;
 
     #[test]
     fn the_longer_of_the_two_is_the_roof() {
-        let reached = Reached {
-            stage: "",
-            operations: 8e9,
-            bytes: 1e9,
-            working_set: 0,
-            peak: 8e9,
-            bandwidth: 5e9,
-            seconds: 4.0,
-            share: 0.0,
-        };
-        assert_eq!(reached.with_share().share, 0.25);
+        assert_eq!(share([8e9, 1e9], [8e9, 5e9], 4.0), 0.25);
+        assert_eq!(share([8e9, 10e9], [8e9, 5e9], 4.0), 0.5);
     }
 }

@@ -14,35 +14,15 @@ const ROUNDS: usize = 200_000;
 const RUNS: usize = 40;
 /// Bytes that pass in one run, at least.
 const PASSED: usize = 32 << 20;
-/// Sizes of memory that are shown: half a processor's own second-level cache, its shared third, main memory.
-pub(crate) const SIZES: [(&str, usize); 3] = [
-    ("in the second-level cache", 512 << 10),
-    ("in the third-level cache", 8 << 20),
-    ("in main memory", 256 << 20),
-];
-
 /// A rate of arithmetic on one thread.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub(crate) struct Arithmetic {
-    /// f32, multiply and add as one instruction, operations a second (two each).
-    pub(crate) fused: f64,
     /// f32, one multiplication and one addition: the run time's operations, whose bits must not depend on the processor.
     pub(crate) separate: f64,
     /// Operations in f64, one multiplication and one addition.
     pub(crate) double: f64,
     /// f32 numbers in a vector.
     pub(crate) lanes: usize,
-}
-
-/// Rates of memory of one size on one thread.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub(crate) struct Memory {
-    /// All arrays together, bytes.
-    pub(crate) size: usize,
-    /// Reading only, bytes a second.
-    pub(crate) read: f64,
-    /// a = b + s c, bytes a second: two arrays read, one written.
-    pub(crate) triad: f64,
 }
 
 impl Arithmetic {
@@ -54,7 +34,6 @@ impl Arithmetic {
         let lanes = arch.dispatch(Lanes);
         let rate = |seconds: f64, lanes: usize| operations(lanes) / seconds;
         Self {
-            fused: rate(fastest(|| arch.dispatch(Fused)), lanes),
             separate: rate(fastest(|| arch.dispatch(Separate)), lanes),
             double: rate(fastest(|| arch.dispatch(Double)), lanes / 2),
             lanes,
@@ -62,34 +41,14 @@ impl Arithmetic {
     }
 }
 
-impl Memory {
-    /// Measures memory of this size, bytes.
-    #[must_use]
-    pub(crate) fn measure(size: usize) -> Self {
-        let arch = Arch::new();
-        let numbers = (size / 4).max(CHAINS * 64);
-        let rounds = PASSED.div_ceil(4 * numbers);
-        let numbers_of = |count: usize| vec![black_box(0.5_f32); count];
-        let read = {
-            let from = numbers_of(numbers);
-            let seconds = fastest(|| (0..rounds).map(|_| arch.dispatch(Read(&from))).sum::<f32>());
-            (4 * numbers * rounds) as f64 / seconds
-        };
-        let third = numbers / 3;
-        let (b, c) = (numbers_of(third), numbers_of(third));
-        let mut a = numbers_of(third);
-        let seconds = fastest(|| {
-            for _ in 0..rounds {
-                arch.dispatch(Triad(&mut a, &b, &c));
-            }
-            black_box(a[third / 2])
-        });
-        Self {
-            size: 4 * numbers,
-            read,
-            triad: (12 * third * rounds) as f64 / seconds,
-        }
-    }
+/// Rate of reading memory of this size, bytes, on one thread: bytes a second.
+pub(crate) fn read(size: usize) -> f64 {
+    let arch = Arch::new();
+    let numbers = (size / 4).max(CHAINS * 64);
+    let rounds = PASSED.div_ceil(4 * numbers);
+    let from = vec![black_box(0.5_f32); numbers];
+    let seconds = fastest(|| (0..rounds).map(|_| arch.dispatch(Read(&from))).sum::<f32>());
+    (4 * numbers * rounds) as f64 / seconds
 }
 
 /// Shortest of some runs, s; the first warms up.
@@ -113,80 +72,32 @@ impl WithSimd for Lanes {
     }
 }
 
-struct Fused;
+/// A loop of multiplications and additions, each in a chain of its own.
+macro_rules! arithmetic {
+    ($name:ident, $splat:ident, $mul:ident, $add:ident, $sum:ident) => {
+        struct $name;
 
-impl WithSimd for Fused {
-    type Output = f32;
+        impl WithSimd for $name {
+            type Output = f32;
 
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> f32 {
-        let (scale, shift) = (
-            simd.splat_f32s(black_box(0.75)),
-            simd.splat_f32s(black_box(0.5)),
-        );
-        let mut sums = [simd.splat_f32s(black_box(1.0)); CHAINS];
-        for _ in 0..ROUNDS {
-            for sum in &mut sums {
-                *sum = simd.mul_add_f32s(*sum, scale, shift);
+            #[inline(always)]
+            fn with_simd<S: Simd>(self, simd: S) -> f32 {
+                let (scale, shift) = (simd.$splat(black_box(0.75)), simd.$splat(black_box(0.5)));
+                let mut sums = [simd.$splat(black_box(1.0)); CHAINS];
+                for _ in 0..ROUNDS {
+                    for sum in &mut sums {
+                        *sum = simd.$add(simd.$mul(*sum, scale), shift);
+                    }
+                }
+                let all = sums.into_iter().reduce(|all, sum| simd.$add(all, sum));
+                all.map_or(0.0, |all| simd.$sum(all) as f32)
             }
         }
-        let mut all = sums[0];
-        for sum in &sums[1..] {
-            all = simd.add_f32s(all, *sum);
-        }
-        simd.reduce_sum_f32s(all)
-    }
+    };
 }
 
-struct Separate;
-
-impl WithSimd for Separate {
-    type Output = f32;
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> f32 {
-        let (scale, shift) = (
-            simd.splat_f32s(black_box(0.75)),
-            simd.splat_f32s(black_box(0.5)),
-        );
-        let mut sums = [simd.splat_f32s(black_box(1.0)); CHAINS];
-        for _ in 0..ROUNDS {
-            for sum in &mut sums {
-                *sum = simd.add_f32s(simd.mul_f32s(*sum, scale), shift);
-            }
-        }
-        let mut all = sums[0];
-        for sum in &sums[1..] {
-            all = simd.add_f32s(all, *sum);
-        }
-        simd.reduce_sum_f32s(all)
-    }
-}
-
-struct Double;
-
-impl WithSimd for Double {
-    type Output = f32;
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> f32 {
-        let (scale, shift) = (
-            simd.splat_f64s(black_box(0.75)),
-            simd.splat_f64s(black_box(0.5)),
-        );
-        let mut sums = [simd.splat_f64s(black_box(1.0)); CHAINS];
-        for _ in 0..ROUNDS {
-            for sum in &mut sums {
-                *sum = simd.add_f64s(simd.mul_f64s(*sum, scale), shift);
-            }
-        }
-        let mut all = sums[0];
-        for sum in &sums[1..] {
-            all = simd.add_f64s(all, *sum);
-        }
-        simd.reduce_sum_f64s(all) as f32
-    }
-}
+arithmetic!(Separate, splat_f32s, mul_f32s, add_f32s, reduce_sum_f32s);
+arithmetic!(Double, splat_f64s, mul_f64s, add_f64s, reduce_sum_f64s);
 
 struct Read<'a>(&'a [f32]);
 
@@ -207,22 +118,5 @@ impl WithSimd for Read<'_> {
             all = simd.add_f32s(all, *sum);
         }
         simd.reduce_sum_f32s(all)
-    }
-}
-
-struct Triad<'a>(&'a mut [f32], &'a [f32], &'a [f32]);
-
-impl WithSimd for Triad<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        let (a, _) = S::as_mut_simd_f32s(black_box(self.0));
-        let (b, _) = S::as_simd_f32s(black_box(self.1));
-        let (c, _) = S::as_simd_f32s(black_box(self.2));
-        let scale = simd.splat_f32s(black_box(0.25));
-        for ((a, b), c) in a.iter_mut().zip(b).zip(c) {
-            *a = simd.add_f32s(*b, simd.mul_f32s(scale, *c));
-        }
     }
 }

@@ -4,9 +4,6 @@ use std::time::{Duration, Instant};
 
 use frangible_lab::Result;
 use frangible_lab::bench::Fingerprint;
-use frangible_rapier::rapier3d::dynamics::{MassProperties, RigidBodyHandle};
-use frangible_rapier::rapier3d::geometry::Collider;
-use frangible_rapier::rapier3d::math::Vector;
 use frangible_rapier::{BreakableWorld, Breaking, ColliderDetail, WorldConfig};
 
 use crate::crockery::Kind;
@@ -63,24 +60,11 @@ pub(crate) struct Happened {
     pub(crate) awake: usize,
 }
 
-/// A piece that was made, for the shop that has it from the beginning.
-#[derive(Clone)]
-pub(crate) struct Piece {
-    pub(crate) handle: RigidBodyHandle,
-    pub(crate) parent: RigidBodyHandle,
-    /// Centre of mass in the parent's frame, m.
-    pub(crate) centre: Vector,
-    pub(crate) mass: MassProperties,
-    pub(crate) colliders: Vec<Collider>,
-}
-
 /// A run.
 pub(crate) struct Run {
     pub(crate) frames: Vec<Frame>,
     pub(crate) happened: Vec<Happened>,
     pub(crate) print: Fingerprint,
-    /// Pieces that are there in the end.
-    pub(crate) pieces: Vec<Piece>,
     /// Things in the shop.
     pub(crate) things: usize,
 }
@@ -125,24 +109,17 @@ impl Clock {
     }
 }
 
-/// The shop, with everything at rest.
-pub(crate) fn settled(kinds: &[Kind]) -> Result<Shop> {
-    let mut shop = furnish(kinds, config(), SEED)?;
-    for _ in 0..SETTLE {
-        shop.world.step()?;
-    }
-    Ok(shop)
-}
-
 /// A run of so many frames.
 pub(crate) fn play(kinds: &[Kind], frames: usize) -> Result<Run> {
-    let Shop { mut world, things } = settled(kinds)?;
+    let Shop { mut world, things } = furnish(kinds, config(), SEED)?;
+    for _ in 0..SETTLE {
+        world.step()?;
+    }
     let_in(&mut world)?;
     let mut run = Run {
         frames: Vec::with_capacity(frames),
         happened: Vec::with_capacity(frames),
         print: Fingerprint::default(),
-        pieces: Vec::new(),
         things: things.len(),
     };
     let mut clock = Clock::start();
@@ -159,10 +136,7 @@ pub(crate) fn play(kinds: &[Kind], frames: usize) -> Result<Run> {
             parts: [t.contacts, t.fracture, t.fragments, t.loads, t.upkeep],
         });
         run.happened.push(happened(&world));
-        run.pieces.extend(new_pieces(&world));
     }
-    run.pieces
-        .retain(|piece| world.physics.bodies.contains(piece.handle));
     for (_, body) in world.physics.bodies.iter() {
         let (p, v) = (body.position().translation, body.linvel());
         for x in p.to_array().into_iter().chain(v.to_array()) {
@@ -183,31 +157,4 @@ fn happened(world: &BreakableWorld) -> Happened {
             .filter(|(_, b)| !(b.is_sleeping() || b.is_fixed()))
             .count(),
     }
-}
-
-/// Pieces with a collider that the last step made.
-fn new_pieces(world: &BreakableWorld) -> Vec<Piece> {
-    let physics = &world.physics;
-    let mut pieces = Vec::new();
-    for event in world.breaks() {
-        for (&handle, fragment) in event.fragments.iter().zip(&event.fracture.fragments) {
-            let Some(body) = physics.bodies.get(handle) else {
-                continue;
-            };
-            let colliders = body.colliders().iter();
-            let colliders: Vec<Collider> = colliders
-                .filter_map(|&c| physics.colliders.get(c).cloned())
-                .collect();
-            if !colliders.is_empty() {
-                pieces.push(Piece {
-                    handle,
-                    parent: event.parent,
-                    centre: fragment.mass.centre.as_vec3(),
-                    mass: body.mass_properties().local_mprops,
-                    colliders,
-                });
-            }
-        }
-    }
-    pieces
 }

@@ -40,7 +40,6 @@ impl Cache {
         modes: usize,
         material: &str,
         geometry: impl FnOnce() -> Result<Geometry>,
-        progress: &mut dyn FnMut(&str, f64),
     ) -> Result<Baked> {
         let wrong = |path: &Path| {
             let path = path.display().to_string();
@@ -67,7 +66,6 @@ impl Cache {
                 seconds,
             });
         }
-        progress(&format!("baking {name}"), 0.0);
         let (shape, analysis, fracture) = geometry()?;
         let spec = BakeSpec {
             modes,
@@ -75,9 +73,7 @@ impl Cache {
             fracture,
             ..BakeSpec::new(name, shape, material)
         };
-        let frangible_bake::Baked { asset, report } = bake_with(&spec, |p| {
-            progress(&format!("baking {name}: {}", p.stage), p.fraction);
-        })?;
+        let frangible_bake::Baked { asset, report } = bake_with(&spec, |_| {})?;
         let seconds = report.seconds.iter().map(|(_, s)| s).sum();
         asset.save(&path)?;
         fs::write(&beside, format!("{seconds}\n")).map_err(wrong(&beside))?;

@@ -12,6 +12,7 @@ use frangible::{
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use serde::Serialize;
+use serde_json::{Value, json};
 
 use crate::Result;
 use crate::bench::cache::Cache;
@@ -79,37 +80,15 @@ pub struct Timed {
     pub latency: Spread,
 }
 
-/// Results of the benchmark.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Findings {
-    /// Tetrahedra of the body.
-    pub tets: usize,
-    /// Its nodes.
-    pub nodes: usize,
-    /// Its weak points.
-    pub weak_points: usize,
-    /// Its modes.
-    pub modes: usize,
-    /// Time for reading the clock, s: part of every latency.
-    pub clock: f64,
-    /// The game-like distribution.
-    pub game: Timed,
-    /// Share of each class in it.
-    pub game_shares: Vec<(Class, f64)>,
-    /// Each class by itself; one that was not met is left out.
-    pub classes: Vec<(Class, Timed)>,
-}
-
 /// Bakes the body, or reads it, and times the contacts.
 ///
 /// # Errors
 /// A body that does not bake, or whose file cannot be read.
-pub fn measure(cache: &Cache, progress: &mut dyn FnMut(&str, f64)) -> Result<Findings> {
+pub fn measure(cache: &Cache) -> Result<Value> {
     let geometry = || Ok((solid("piggy_bank", PIG_GROWN, PIG_TETS)?, None, None));
-    let baked = cache.body("porcelain-pig", MODES, "porcelain", geometry, progress)?;
+    let baked = cache.body("porcelain-pig", MODES, "porcelain", geometry)?;
     let body = Breakable::uniform(baked.asset)?.body(1);
     let config = FractureConfig::default();
-    progress("game-like contacts", 0.0);
     let game = Source::new(&body, GAME_SPEEDS, 1)?.take(GAME);
     let mut game_counts = [0; Class::ALL.len()];
     for contact in &game {
@@ -117,12 +96,7 @@ pub fn measure(cache: &Cache, progress: &mut dyn FnMut(&str, f64)) -> Result<Fin
     }
     let game_timed = time(&body, &game, &config)?;
     let mut found: [Vec<Contact>; Class::ALL.len()] = Default::default();
-    for (i, contact) in Source::new(&body, ALL_SPEEDS, 2)?
-        .take(TRIED)
-        .iter()
-        .enumerate()
-    {
-        progress("finding contacts of each class", i as f64 / TRIED as f64);
+    for contact in &Source::new(&body, ALL_SPEEDS, 2)?.take(TRIED) {
         let kind = &mut found[class(&body, contact, &config)? as usize];
         if kind.len() < KEPT {
             kind.push(contact.clone());
@@ -130,28 +104,23 @@ pub fn measure(cache: &Cache, progress: &mut dyn FnMut(&str, f64)) -> Result<Fin
     }
     let mut classes = Vec::new();
     for (kind, contacts) in Class::ALL.into_iter().zip(&found) {
-        progress(
-            &format!("{kind:?}"),
-            kind as usize as f64 / Class::ALL.len() as f64,
-        );
         if !contacts.is_empty() {
-            classes.push((kind, time(&body, contacts, &config)?));
+            classes.push(json!({ "class": kind, "timed": time(&body, contacts, &config)? }));
         }
     }
+    let shares = Class::ALL.map(|kind| f64::from(game_counts[kind as usize]) / GAME as f64);
+    let shares = Class::ALL.into_iter().zip(shares);
     let asset = body.asset();
-    Ok(Findings {
-        tets: asset.fracture().tets.len(),
-        nodes: asset.fracture().positions.len(),
-        weak_points: body.weak_tets().len(),
-        modes: asset.modes().count(),
-        clock: clock_cost(),
-        game: game_timed,
-        game_shares: Class::ALL
-            .into_iter()
-            .map(|kind| (kind, f64::from(game_counts[kind as usize]) / GAME as f64))
-            .collect(),
-        classes,
-    })
+    Ok(json!({
+        "tets": asset.fracture().tets.len(),
+        "nodes": asset.fracture().positions.len(),
+        "weak_points": body.weak_tets().len(),
+        "modes": asset.modes().count(),
+        "clock_s": clock_cost(),
+        "game": game_timed,
+        "game_shares": shares.map(|(class, share)| json!({ "class": class, "share": share })).collect::<Vec<_>>(),
+        "classes": classes,
+    }))
 }
 
 /// Draws contacts.

@@ -5,10 +5,10 @@
 //! - [`contacts`]: rate and worst-case time of rejected contacts;
 //! - [`again`]: frame times of scenes with pieces that break again;
 //! - [`gallery`]: whole breaks of the gallery's bodies, compared with the project's goals;
-//! - [`memory`]: size of bodies in files and in memory;
 //! - [`stages`]: single stages on a small body, for counting instructions.
 //!
-//! A haptic loop, the roofline of the initiation, a shop of a thousand breakable things and batches on a GPU are examples of this crate.
+//! A haptic loop, the roofline of the initiation, a shop of a thousand breakable things, batches on a GPU and the size of bodies in memory are examples
+//! of this crate.
 
 pub mod again;
 pub mod cache;
@@ -17,7 +17,6 @@ mod fingerprint;
 pub mod gallery;
 mod grid;
 pub mod machine;
-pub mod memory;
 pub mod stages;
 pub mod stats;
 pub mod subjects;

@@ -12,7 +12,7 @@ use crate::Result;
 pub(crate) const MODES: usize = 100;
 
 /// Length of the slab's sides and its thickness, m. The paper gives none.
-const SLAB: [f64; 3] = [0.3, 0.3, 0.006];
+pub(crate) const SLAB: [f64; 3] = [0.3, 0.3, 0.006];
 
 /// Mass, kg, radius, m, and speed, m/s, of the steel ball that hits the slab: R_c of the paper's slab is 1 GPa.
 const SLAB_BALL: [f64; 3] = [0.13, 0.0158, 80.0];

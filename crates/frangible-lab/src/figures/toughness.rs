@@ -1,49 +1,66 @@
-//! Fig. 7: the slab's cracks at three toughnesses.
+//! Figs. 7 and 12: the slab at three toughnesses, and with several dampings.
 
 use std::sync::Arc;
 
 use frangible::internals::impact_traced;
-use frangible::{Asset, Breakable, Contact, FractureConfig};
+use frangible::{Asset, Breakable, Contact, FractureConfig, Material};
 use serde_json::{Value, json};
 
-use super::bodies::{changed, slab, slab_blow};
-use super::slice::surface_trace;
+use super::bodies::{SLAB, changed, slab, slab_blow};
 use super::statistics::{mean_damage, models};
 use crate::Result;
+use crate::verify::experiments::CrackPattern;
 
 /// Fracture energies G_c, J/m², as in the paper.
 const TOUGHNESS: [f64; 3] = [150.0, 90.0, 60.0];
+/// Stiffness damping α, s: the paper's two values, and a further one.
+const DAMPING: [f64; 3] = [0.0, 1e-6, 1e-5];
 
-/// The slab at each toughness, in the paper's model and in ours.
-pub(super) fn compute() -> Result<Value> {
+pub(super) fn toughness() -> Result<Value> {
+    series("toughness_j_m2", TOUGHNESS, |m, g| m.fracture_energy = g)
+}
+
+pub(super) fn damping() -> Result<Value> {
+    series("alpha_s", DAMPING, |m, alpha| m.stiffness_damping = alpha)
+}
+
+/// The slab with several values of a number of its material, in the paper's model and in ours.
+fn series(key: &str, values: [f64; 3], change: fn(&mut Material, f64)) -> Result<Value> {
     let slab = slab()?;
     let contact = [slab_blow(&slab)?];
     let mut rows = Vec::new();
     for (model, config) in models() {
-        for toughness in TOUGHNESS {
-            let slab = changed(&slab, |m| m.fracture_energy = toughness);
-            rows.push(json!({
+        for value in values {
+            let slab = changed(&slab, |material| change(material, value));
+            let mut row = json!({
                 "model": model,
-                "toughness_j_m2": toughness,
                 "damage": mean_damage(&slab, &contact, &config)?,
+                "undamped_modes": undamped(&slab),
                 "lines_mm": lines(&slab, &contact, &config)?,
-            }));
+            });
+            row[key] = json!(value);
+            rows.push(row);
         }
     }
     Ok(rows.into())
 }
 
-/// Traces of the cracks on the upper face, seed 1: both ends of each, mm.
-pub(super) fn lines(
+/// Number of modes below critical damping.
+fn undamped(plate: &Asset) -> usize {
+    let modes = plate.modes();
+    let swings =
+        |i: &usize| modes.damping(*i, plate.material()) < 2.0 * modes.eigenvalues[*i].sqrt();
+    (0..modes.count()).filter(swings).count()
+}
+
+/// Cracks just below the upper face, seed 1: both ends of each line, mm.
+fn lines(
     slab: &Arc<Asset>,
     contacts: &[Contact],
     config: &FractureConfig,
-) -> Result<Vec<[f32; 4]>> {
+) -> Result<Vec<[f64; 4]>> {
     let body = Breakable::uniform(Arc::clone(slab))?.body(1);
     let (_, trace) = impact_traced(&body, contacts, config)?;
-    let elements = trace.cracks.iter().flatten();
-    let lines = elements.flat_map(|element| surface_trace(slab.fracture(), element));
-    let above = lines.filter(|[a, b]| a.z > 0.0 && b.z > 0.0);
-    let ends = above.map(|[a, b]| [a.x, a.y, b.x, b.y].map(|x| (1e4 * x).round() / 10.0));
-    Ok(ends.collect())
+    let pattern = CrackPattern::of(slab, &trace, 0.49 * SLAB[2]);
+    Ok(pattern.millimetres())
 }

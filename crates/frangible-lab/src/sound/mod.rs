@@ -3,7 +3,6 @@
 //! Closed forms and published spectra stand beside the synthesiser's results for baked bodies. The tests of `frangible-sound` check the radiation of
 //! spheres, energies and onsets; here are whole bodies.
 
-mod cost;
 mod cup;
 mod faces;
 mod landing;
@@ -15,7 +14,6 @@ mod spectrum;
 use serde_json::{Value, json};
 
 use crate::{Progress, Result};
-pub use cost::Cost;
 pub use cup::{Cup, FRICTIONS, Knocked};
 pub use landing::Landing;
 pub use levels::HeardLevel;
@@ -40,8 +38,6 @@ pub struct Heard {
     pub landings: Vec<Landing>,
     /// The glass dropped from heights that double.
     pub drops: Vec<Drop>,
-    /// Computing time of a resonator.
-    pub cost: Cost,
 }
 
 impl Heard {
@@ -63,7 +59,6 @@ impl Heard {
         hear(0.9);
         let drops = scenes::drops()?;
         hear(0.98);
-        let cost = Cost::measure()?;
         Ok(Self {
             objects,
             cup,
@@ -71,11 +66,10 @@ impl Heard {
             levels,
             landings,
             drops,
-            cost,
         })
     }
 
-    /// The numbers. But for the cost of a tone, the same build gives the same ones.
+    /// The numbers; the same build gives the same ones.
     #[must_use]
     pub fn data(&self) -> Value {
         let partials = self.objects.iter().flat_map(|object| {
@@ -121,7 +115,6 @@ impl Heard {
             "levels": self.levels.iter().flat_map(HeardLevel::data).collect::<Vec<_>>(),
             "landings": self.landings,
             "drops": drops.collect::<Vec<_>>(),
-            "cost_ns": self.cost,
         })
     }
 

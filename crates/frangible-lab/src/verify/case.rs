@@ -5,7 +5,7 @@ use frangible_bake::BakeError;
 use serde::Serialize;
 
 use crate::Result;
-use crate::verify::cases;
+use crate::verify::cases::CASES;
 use crate::verify::check::Check;
 
 /// Something with a known answer.
@@ -15,11 +15,11 @@ pub struct Case {
     pub name: &'static str,
     /// Heading of its part of the report.
     pub title: &'static str,
-    pub(crate) compute: Compute,
+    compute: Compute,
 }
 
-/// Computes a case; the callback receives the share done, 0..=1.
-pub(crate) type Compute = fn(&mut dyn FnMut(f64)) -> std::result::Result<Findings, BakeError>;
+/// Computes a case.
+pub(crate) type Compute = fn() -> std::result::Result<Findings, BakeError>;
 
 /// Results of a case.
 #[derive(Clone, Debug, Default)]
@@ -48,23 +48,6 @@ pub struct Curve {
     pub points: Vec<[f64; 2]>,
 }
 
-/// All cases.
-pub const CASES: &[Case] = &[
-    cases::bar::CASE,
-    cases::plate::CASE,
-    cases::block::CASE,
-    cases::ball::CASE,
-    cases::cantilever::CASE,
-    cases::convergence::CASE,
-    cases::basis::CASE,
-    cases::scaling::CASE,
-    cases::oscillator::CASE,
-    cases::contact::CASE,
-    cases::near_field::CASE,
-    cases::blow::CASE,
-    cases::two_bodies::CASE,
-];
-
 /// The case of this name.
 #[must_use]
 pub fn case(name: &str) -> Option<&'static Case> {
@@ -72,12 +55,20 @@ pub fn case(name: &str) -> Option<&'static Case> {
 }
 
 impl Case {
-    /// Computes it; `progress` receives the share done, 0..=1.
+    pub(crate) const fn new(name: &'static str, title: &'static str, compute: Compute) -> Self {
+        Self {
+            name,
+            title,
+            compute,
+        }
+    }
+
+    /// Computes it.
     ///
     /// # Errors
     /// An error of the code under test.
-    pub fn run(&self, progress: &mut dyn FnMut(f64)) -> Result<Findings> {
-        let found = (self.compute)(progress);
+    pub fn run(&self) -> Result<Findings> {
+        let found = (self.compute)();
         Ok(found.map_err(|e| format!("the case `{}` could not be computed: {e}", self.name))?)
     }
 }

@@ -15,6 +15,7 @@ mod ode;
 pub mod pieces;
 mod ritz;
 
-pub use case::{CASES, Case, Curve, Findings, case};
+pub use case::{Case, Curve, Findings, case};
+pub use cases::CASES;
 pub use check::Check;
 pub use ritz::{box_frequencies, first_box_frequency};

@@ -19,22 +19,22 @@ fn a_body_of_table_1_is_baked_once_and_measured() {
     let (row, other) = (&first["measured"][0], &second["measured"][0]);
     assert_eq!(row["subject"]["name"], "slab-low");
     // The second run read the bakes of the first, and broke them the same way.
-    assert_eq!(row["bake"], other["bake"]);
+    assert_eq!(row["bake_s"], other["bake_s"]);
     for model in ["paper", "two_samples", "ours"] {
         let (a, b) = (&row[model], &other[model]);
         for count in ["steps", "crossed", "cracks", "fragments"] {
             assert_eq!(a[count], b[count], "{model} {count}");
         }
-        let number = |key: &str| a["warm"][key].as_f64().expect("a number");
+        let number = |key: &str| a["warm_s"][key].as_f64().expect("a number");
         assert!(a["fragments"].as_u64() > Some(1), "{a}");
-        let stages = ["response", "displacements", "cracks", "fragments"];
+        let stages = ["response", "stresses", "cracks", "fragments"];
         assert!(stages.iter().all(|s| number(s) > 0.0), "{a}");
         assert!(
-            number("total") > 0.0 && a["colliders"].as_f64() > Some(0.0),
+            number("total") > 0.0 && a["colliders_s"].as_f64() > Some(0.0),
             "{a}"
         );
     }
-    assert!(row["paper"]["reference"].as_f64() > Some(0.0));
+    assert!(row["paper"]["reference_s"].as_f64() > Some(0.0));
 }
 
 #[test]

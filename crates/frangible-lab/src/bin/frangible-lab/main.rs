@@ -16,7 +16,7 @@ use frangible_lab::data::Measures;
 use frangible_lab::sound::{Heard, RATE};
 use frangible_lab::verify::CASES;
 use frangible_lab::verify::experiments::{Experiments, MassPlan, RearStarPlan, StarPlan};
-use frangible_lab::verify::near_field::NearField;
+use frangible_lab::verify::near_field;
 use frangible_lab::verify::pieces::{Truth, TruthPlan, broken_scenes};
 use frangible_recording::{make_folder, write_atomically};
 use frangible_scenes::{GamePlan, scene, scene_of};
@@ -33,7 +33,7 @@ fn main() -> ExitCode {
         Command::Verify(args) => verify(&args),
         Command::Experiments(args) => experiments(&args),
         Command::Pieces(args) => pieces(&args),
-        Command::NearField(args) => near_field(&args),
+        Command::NearField(args) => plates(&args),
         Command::Sound(args) => sound(&args),
         Command::Figures(args) => figures(&args.names, &args.write),
         Command::Bench(args) => bench(&args),
@@ -56,7 +56,7 @@ fn verify(args: &Write) -> Result<()> {
     let (mut all, mut failed) = (Map::new(), Vec::new());
     for (i, case) in CASES.iter().enumerate() {
         bar.show(case.title, i as f64 / CASES.len() as f64);
-        let found = case.run(&mut |_| {})?;
+        let found = case.run()?;
         let checks: Vec<Value> = found.checks.iter().map(|check| check.data()).collect();
         let wrong = found.checks.iter().filter(|check| !check.passes());
         failed.extend(wrong.map(|check| format!("{}, {}", case.title, check.name)));
@@ -96,10 +96,10 @@ fn pieces(args: &PiecesArgs) -> Result<()> {
     place.put(true, &found.data())
 }
 
-fn near_field(args: &Write) -> Result<()> {
+fn plates(args: &Write) -> Result<()> {
     let place = Place::new(args, "near-field", Measures::Model)?;
     let bar = Bar::new();
-    let found = NearField::compute(&|share| bar.show("hitting plates", share))?;
+    let found = near_field::compute(&|share| bar.show("hitting plates", share))?;
     drop(bar);
     place.put(false, &found)
 }
@@ -116,7 +116,7 @@ fn sound(args: &Write) -> Result<()> {
         let wav = frangible_sound::wav(samples, 1, RATE, f64::from(loudest))?;
         write_atomically(format!("{SOUNDS}/{name}.wav").as_ref(), &wav)?;
     }
-    place.put(true, &heard.data())
+    place.put(false, &heard.data())
 }
 
 fn figures(names: &[String], args: &Write) -> Result<()> {
@@ -133,8 +133,6 @@ fn bench(args: &BenchArgs) -> Result<()> {
         // Numbers that stay must not be of a body, or a bake time, of another day.
         rebake: args.rebake || args.write.write.is_some(),
     };
-    let bar = Bar::new();
-    let mut show = |what: &str, share: f64| bar.show(what, share);
     let runs = args.runs.unwrap_or(30);
     let (name, found) = match args.what {
         Measured::Table1 => {
@@ -143,29 +141,22 @@ fn bench(args: &BenchArgs) -> Result<()> {
                 reference: !args.no_reference,
             };
             let rows = chosen(&args.bodies)?.into_iter();
-            let rows = rows.map(|body| table1::measure(body, &cache, &options, &mut show));
+            let rows = rows.map(|body| table1::measure(body, &cache, &options));
             ("table1", json!(rows.collect::<Result<Vec<_>>>()?))
         }
         Measured::Gallery => {
             let subjects = breaks::chosen(&args.bodies)?;
-            (
-                "breaks",
-                json!(breaks::measure(&subjects, runs, &mut show)?),
-            )
+            ("breaks", json!(breaks::measure(&subjects, runs)?))
         }
         _ if !args.bodies.is_empty() => {
             return Err("--body applies only to `bench table1` and `bench gallery`".into());
         }
-        Measured::Contacts => ("contacts", json!(contacts::measure(&cache, &mut show)?)),
+        Measured::Contacts => ("contacts", json!(contacts::measure(&cache)?)),
         Measured::Again => {
             let runs = args.runs.unwrap_or(3);
-            (
-                "again",
-                json!(again::measure(runs, GamePlan::default(), &mut show)?),
-            )
+            ("again", json!(again::measure(runs, GamePlan::default())?))
         }
     };
-    drop(bar);
     Place::new(&args.write, name, Measures::Scenes)?.put(true, &found)
 }
 

@@ -12,8 +12,7 @@ use serde::Serialize;
 use super::blow::Projectile;
 use super::bodies::breakable;
 use super::fit::CutOffLaw;
-use super::progress::Counter;
-use crate::{Progress, Result};
+use crate::Result;
 
 /// Smallest piece that counts, in the crumb limit of the default model: at the limit itself small pieces have joined their
 /// neighbours.
@@ -92,15 +91,14 @@ impl Masses {
     ///
     /// # Errors
     /// An error of the bake or of the impact.
-    pub fn compute(plan: MassPlan, hear: Progress<'_>) -> Result<Self> {
-        let counter = Counter::new(2 * plan.seeds as usize, hear);
-        let runs = vec![pane(&plan, &counter)?, ball(&plan, &counter)?];
+    pub fn compute(plan: MassPlan) -> Result<Self> {
+        let runs = vec![pane(&plan)?, ball(&plan)?];
         Ok(Self { plan, runs })
     }
 }
 
 /// The pane of the built-in scene `pane`, free, hit in its middle by its ball.
-fn pane(plan: &MassPlan, counter: &Counter<'_>) -> Result<MassRun> {
+fn pane(plan: &MassPlan) -> Result<MassRun> {
     const SIDE: f64 = 0.4;
     const THICKNESS: f64 = 4e-3;
     const SPEED: f64 = 20.0;
@@ -117,11 +115,11 @@ fn pane(plan: &MassPlan, counter: &Counter<'_>) -> Result<MassRun> {
         modes: plan.modes,
         ..BakeSpec::new("plate", shape, glass)
     };
-    run("plate", &spec, contact, plan, counter, &[ASTROM[0], LINNA])
+    run("plate", &spec, contact, plan, &[ASTROM[0], LINNA])
 }
 
 /// A ball of glass thrown on stone.
-fn ball(plan: &MassPlan, counter: &Counter<'_>) -> Result<MassRun> {
+fn ball(plan: &MassPlan) -> Result<MassRun> {
     const RADIUS: f64 = 0.05;
     const SPEED: f64 = 30.0;
     let (glass, stone) = (Material::preset("glass")?, Material::preset("stone")?);
@@ -141,7 +139,7 @@ fn ball(plan: &MassPlan, counter: &Counter<'_>) -> Result<MassRun> {
         modes: plan.modes,
         ..BakeSpec::new("solid", Shape::Solid(shape), glass)
     };
-    run("solid", &spec, contact, plan, counter, &[ASTROM[1]])
+    run("solid", &spec, contact, plan, &[ASTROM[1]])
 }
 
 fn run(
@@ -149,7 +147,6 @@ fn run(
     spec: &BakeSpec,
     contact: Contact,
     plan: &MassPlan,
-    counter: &Counter<'_>,
     published: &'static [f64],
 ) -> Result<MassRun> {
     let breakable = breakable(spec)?;
@@ -161,7 +158,6 @@ fn run(
             std::slice::from_ref(&contact),
             &config,
         )?;
-        counter.count();
         let share = |f: &frangible::Fragment| f.mass.volume / whole;
         Ok(match outcome {
             Outcome::Broke(fracture) => fracture.fragments.iter().map(share).collect(),

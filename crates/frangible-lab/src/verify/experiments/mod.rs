@@ -7,11 +7,11 @@ mod bodies;
 mod fit;
 mod masses;
 mod pattern;
-mod progress;
 mod rear_star;
 mod star;
 mod variants;
 
+pub(crate) use bodies::clamped;
 pub use fit::{CutOffLaw, PowerLaw};
 pub use masses::{MassPlan, MassRun, Masses};
 pub use pattern::CrackPattern;
@@ -35,12 +35,6 @@ pub struct Experiments {
     pub masses: Masses,
 }
 
-/// Share of the work that goes into the stars.
-const STARS: f64 = 0.5;
-
-/// Share that goes into the rear stars.
-const REAR: f64 = 0.2;
-
 impl Experiments {
     /// Computes the plans; the same plans give the same bits on any number of threads. With the full plans it takes minutes.
     ///
@@ -52,11 +46,14 @@ impl Experiments {
         masses: MassPlan,
         hear: Progress<'_>,
     ) -> Result<Self> {
-        let before = STARS + REAR;
+        let stars = Stars::compute(stars)?;
+        hear(0.5);
+        let rear_stars = RearStars::compute(rear_stars)?;
+        hear(0.7);
         Ok(Self {
-            stars: Stars::compute(stars, &|share| hear(STARS * share))?,
-            rear_stars: RearStars::compute(rear_stars, &|share| hear(STARS + REAR * share))?,
-            masses: Masses::compute(masses, &|share| hear(before + (1.0 - before) * share))?,
+            stars,
+            rear_stars,
+            masses: Masses::compute(masses)?,
         })
     }
 }

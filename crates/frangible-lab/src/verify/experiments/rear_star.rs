@@ -15,8 +15,7 @@ use serde::Serialize;
 use super::blow::{Projectile, STEEL_DENSITY};
 use super::bodies::{breakable, clamped};
 use super::pattern::CrackPattern;
-use super::progress::Counter;
-use crate::{Progress, Result};
+use crate::Result;
 
 /// Radius of the clamp in the experiment, m. Waves do not come back from it before the ball has left: a square of the same area serves.
 const CLAMP: f64 = 0.065;
@@ -105,14 +104,12 @@ impl RearStars {
     ///
     /// # Errors
     /// An error of the bake or of the impact.
-    pub fn compute(plan: RearStarPlan, hear: Progress<'_>) -> Result<Self> {
+    pub fn compute(plan: RearStarPlan) -> Result<Self> {
         let (steel, glass) = (Material::preset("steel")?, Material::preset("glass")?);
         let ball = Projectile {
             mass: STEEL_DENSITY * PI / 6.0 * BALL.powi(3),
             radius: 0.5 * BALL,
         };
-        let blows = plan.thicknesses.len() * plan.speeds.len() * plan.seeds as usize;
-        let counter = Counter::new(blows, hear);
         let mut config = FractureConfig::default();
         // Without bounds every weak point is looked at, so that the largest tension is known; the cracks are the same.
         config.culling = false;
@@ -132,7 +129,6 @@ impl RearStars {
                     let report = outcome.report();
                     let arms = pattern.crossings(RADIUS, plan.edge) as f64;
                     let force = report.contacts.first().map_or(0.0, |c| c.peak_force);
-                    counter.count();
                     Ok((report.cracks > 0, arms, force, report.peak_stress))
                 };
                 let struck: Result<Vec<_>> = (1..=plan.seeds).into_par_iter().map(strike).collect();

@@ -1,6 +1,5 @@
 //! Radial cracks of a thin plate that a small steel projectile hits: their number as a function of the speed.
 
-use frangible::glam::DVec2;
 use frangible::internals::impact_traced;
 use frangible::{Breakable, Contact, FractureConfig, Material};
 use rayon::prelude::*;
@@ -10,9 +9,8 @@ use serde_json::{Value, json};
 use super::bodies::{breakable, clamped};
 use super::fit::PowerLaw;
 use super::pattern::CrackPattern;
-use super::progress::Counter;
 use super::variants::{DEFAULT, VARIANTS, Variant};
-use crate::{Progress, Result};
+use crate::Result;
 
 /// Side of the square plate, m.
 const SIDE: f64 = 0.1;
@@ -192,17 +190,9 @@ impl Stars {
     ///
     /// # Errors
     /// An error of the bake or of the impact.
-    pub fn compute(plan: StarPlan, hear: Progress<'_>) -> Result<Self> {
+    pub fn compute(plan: StarPlan) -> Result<Self> {
         let steel = Material::preset("steel")?;
         let (pmma, glass) = (Material::preset("pmma")?, Material::preset("glass")?);
-        let others = if plan.variant_speeds.is_empty() {
-            0
-        } else {
-            VARIANTS.len()
-        };
-        let plates =
-            plan.thicknesses.len() * plan.speeds.len() + others * plan.variant_speeds.len();
-        let counter = Counter::new(plates * plan.seeds as usize, hear);
         let (mut runs, mut variants) = (Vec::new(), Vec::new());
         for &thickness in &plan.thicknesses {
             let baked = plate(&plan, thickness, pmma.clone())?;
@@ -215,15 +205,13 @@ impl Stars {
                     .collect();
                 let hit = |&(speed, seed): &(f64, u64)| {
                     let contact = projectile.contact(&steel, thickness, speed);
-                    let hit = strike(&plate, &plan, thickness, contact, &config, seed);
-                    counter.count();
-                    hit
+                    strike(&plate, &plan, thickness, contact, &config, seed)
                 };
                 let impacts: Result<Vec<StarImpact>> = blows.par_iter().map(hit).collect();
                 Ok::<_, crate::Error>(StarRun::new(thickness, variant.name, impacts?))
             };
             runs.push(run(DEFAULT, &baked, &plan.speeds)?);
-            if thickness == MEASURED_THICKNESS && others > 0 {
+            if thickness == MEASURED_THICKNESS && !plan.variant_speeds.is_empty() {
                 for variant in VARIANTS {
                     let own = variant.material(&pmma).map(|m| plate(&plan, thickness, m));
                     let own = own.transpose()?;
@@ -307,11 +295,7 @@ impl Stars {
         let lines = |run: &StarRun, speed: f64| {
             let impacts = run.impacts.iter();
             let mut first = impacts.filter(|m| m.speed == speed && m.seed == 1);
-            let round = |x: f64| (1e5 * x).round() / 100.0;
-            let ends = |[a, b]: &[DVec2; 2]| [a.x, a.y, b.x, b.y].map(round);
-            let lines = first
-                .next()
-                .map(|m| m.pattern.pieces.iter().map(ends).collect::<Vec<_>>());
+            let lines = first.next().map(|m| m.pattern.millimetres());
             json!({ "variant": run.variant, "speed": speed, "lines": lines })
         };
         let drawn = variants.iter().take(2);

@@ -1,15 +1,15 @@
 //! Accuracy of the near field close to an edge of the wall: supported, free or held.
 
-use frangible::glam::DVec3;
 use frangible::{Asset, FractureConfig};
-use frangible_bake::{BakeError, BakeSpec, MeshSize, Region, Shape, Support, bake};
-use serde::Serialize;
+use frangible_bake::{BakeError, MeshSize, bake};
+use serde_json::{Value, json};
 
 use crate::verify::blows::plate::Terms;
 use crate::verify::blows::probe::{
     self, BALL, PLATE, ball, body, felt, following, material, places,
 };
 use crate::verify::cases::near_field::Compared;
+use crate::verify::experiments::clamped;
 
 /// Distances of the contact from the edge, in shortest wavelengths of the modes.
 const SHARES: [f64; 4] = [1.0, 0.5, 0.25, 0.1];
@@ -19,13 +19,7 @@ const MODES: usize = 300;
 const FOLLOWED: usize = 75;
 
 /// Largest difference of the total stress over its peak, by distance from the edge.
-#[derive(Clone, Debug, Serialize)]
-pub(super) struct EdgeRow {
-    pub(super) name: String,
-    pub(super) errors: Vec<f64>,
-}
-
-pub(super) fn compute(plate: &Asset) -> Result<Vec<EdgeRow>, BakeError> {
+pub(super) fn compute(plate: &Asset) -> Result<Vec<Value>, BakeError> {
     let supported = body(plate.clone())?;
     let wavelength = wavelength_of(plate.modes().count());
     let mut rows = Vec::new();
@@ -41,10 +35,8 @@ pub(super) fn compute(plate: &Asset) -> Result<Vec<EdgeRow>, BakeError> {
             let compared = Compared::of(&supported, &config, Terms::Layer, at(share * wavelength))?;
             Ok(compared.error(|s| s[0] + s[1]))
         });
-        rows.push(EdgeRow {
-            name: name.into(),
-            errors: errors.collect::<Result<_, BakeError>>()?,
-        });
+        let errors: Vec<f64> = errors.collect::<Result<_, BakeError>>()?;
+        rows.push(json!({ "name": name, "errors": errors }));
     }
     for (name, held) in [("free", false), ("held", true)] {
         let asset = other(held)?;
@@ -54,10 +46,8 @@ pub(super) fn compute(plate: &Asset) -> Result<Vec<EdgeRow>, BakeError> {
                 let at = if corner { [d, d] } else { [d, 0.013] };
                 many(&asset, at)
             });
-            rows.push(EdgeRow {
-                name: format!("{name}{suffix}"),
-                errors: errors.collect::<Result<_, BakeError>>()?,
-            });
+            let errors: Vec<f64> = errors.collect::<Result<_, BakeError>>()?;
+            rows.push(json!({ "name": format!("{name}{suffix}"), "errors": errors }));
         }
     }
     Ok(rows)
@@ -71,36 +61,12 @@ fn wavelength_of(modes: usize) -> f64 {
 
 /// The plate without supports, or with all of its edges held.
 fn other(held: bool) -> Result<Asset, BakeError> {
-    let axes = [DVec3::X, DVec3::Y];
-    let sides = axes.into_iter().flat_map(|axis| {
-        let last = Region::HalfSpace {
-            point: PLATE.side * axis,
-            normal: -axis,
-        };
-        let first = Region::HalfSpace {
-            point: DVec3::ZERO,
-            normal: axis,
-        };
-        [first, last].map(Support::clamped)
-    });
     let m = material(PLATE.youngs_modulus, PLATE.poisson_ratio, PLATE.density);
-    let spec = BakeSpec {
-        modes: MODES,
-        analysis: Some(MeshSize {
-            edge: 0.0025,
-            layers: 1,
-        }),
-        fracture: Some(MeshSize {
-            edge: 0.0015,
-            layers: 1,
-        }),
-        supports: if held { sides.collect() } else { Vec::new() },
-        ..BakeSpec::new(
-            "plate",
-            Shape::plate(PLATE.side, PLATE.side, PLATE.thickness),
-            m,
-        )
-    };
+    let mut spec = clamped(PLATE.side, PLATE.thickness, m, [0.0025, 0.0015], MODES);
+    spec.fracture = spec.fracture.map(|size| MeshSize { layers: 1, ..size });
+    if !held {
+        spec.supports.clear();
+    }
     bake(&spec)
 }
 

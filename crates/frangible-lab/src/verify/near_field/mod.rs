@@ -7,14 +7,12 @@ mod residual;
 
 use frangible::internals::near_field::PlateTheory;
 use frangible::{Contact, FractureConfig, glam::Vec3};
-use serde::Serialize;
+use serde_json::{Value, json};
 
 use crate::verify::blows::plate::Terms;
 use crate::verify::blows::probe::{self, PLATE, Place, about, body, felt, following, places};
 use crate::verify::cases::blow::{force_on_plate, restitution_at, thin};
 use crate::{Progress, Result};
-use edges::EdgeRow;
-use residual::ResidualRow;
 
 /// Peak of the half-sine of the stress table, N, and its duration, s.
 const FORCE: f64 = 100.0;
@@ -26,112 +24,54 @@ const COLUMNS: [f64; 5] = [1e-3, 2e-3, 4e-3, 8e-3, 16e-3];
 /// Times at which Zener's force is compared, s.
 const TIMES: [f64; 5] = [5e-6, 10e-6, 30e-6, 60e-6, 100e-6];
 
-/// Results of the measurement.
-#[derive(Clone, Debug, Serialize)]
-pub struct NearField {
-    /// Radius of the contact of the half-sine, m.
-    radius_m: f64,
-    /// Hoop stress at the middle of a half-sine.
-    stress: Vec<StressRow>,
-    /// Force on the plate at `TIMES`.
-    force: Vec<ForceRow>,
-    /// Its largest value, computed and Zener's, N.
-    peak_n: [f64; 2],
-    restitution: Vec<RestitutionRow>,
-    edges: Vec<EdgeRow>,
-    residual: Vec<ResidualRow>,
-}
-
-/// Hoop stress over the distance.
-#[derive(Clone, Debug, Serialize)]
-struct StressRow {
-    name: String,
-    /// Distance, m, and stress, MPa.
-    points: Vec<[f64; 2]>,
-    /// The points next to the distances of the table.
-    columns: Vec<[f64; 2]>,
-}
-
-/// Force of a ball on a plate, computed and by Zener.
-#[derive(Clone, Debug, Serialize)]
-struct ForceRow {
-    time_s: f64,
-    computed_n: f64,
-    zener_n: f64,
-}
-
-/// Restitution of a ball on a plate over Zener's λ.
-#[derive(Clone, Debug, Serialize)]
-struct RestitutionRow {
-    inelasticity: f64,
-    computed: f64,
-    zener: f64,
-}
-
-impl NearField {
-    /// Computes everything: half a minute.
-    ///
-    /// # Errors
-    /// An error of the bake or of the fracture code.
-    pub fn compute(hear: Progress<'_>) -> Result<Self> {
-        let plate = probe::plate()?;
-        hear(0.15);
-        let (radius_m, stress) = stress(&plate)?;
-        let wide = probe::wide_plate()?;
-        hear(0.3);
-        let (force, peak_n) = force_on_plate(&wide, &thin(), &TIMES)?;
-        let force = TIMES.into_iter().zip(force);
-        let force = force.map(|(time_s, [computed_n, zener_n])| ForceRow {
-            time_s,
-            computed_n,
-            zener_n,
-        });
-        let mut restitution = Vec::new();
-        for inelasticity in [0.1, 0.25, 0.5, 1.0, 2.0] {
-            let [computed, zener] = restitution_at(&wide, inelasticity, &thin())?;
-            restitution.push(RestitutionRow {
-                inelasticity,
-                computed,
-                zener,
-            });
-        }
-        hear(0.4);
-        let edges = edges::compute(&plate)?;
-        hear(0.7);
-        Ok(Self {
-            radius_m,
-            stress,
-            force: force.collect(),
-            peak_n,
-            restitution,
-            edges,
-            residual: residual::compute()?,
-        })
+/// Measures everything: half a minute.
+///
+/// # Errors
+/// An error of the bake or of the fracture code.
+pub fn compute(hear: Progress<'_>) -> Result<Value> {
+    let plate = probe::plate()?;
+    hear(0.15);
+    let (radius, stress) = stress(&plate)?;
+    let wide = probe::wide_plate()?;
+    hear(0.3);
+    let (force, peak) = force_on_plate(&wide, &thin(), &TIMES)?;
+    let force = TIMES.iter().zip(force).map(|(time, [computed, zener])| {
+        json!({ "time_s": time, "computed_n": computed, "zener_n": zener })
+    });
+    let mut restitution = Vec::new();
+    for inelasticity in [0.1, 0.25, 0.5, 1.0, 2.0] {
+        let [computed, zener] = restitution_at(&wide, inelasticity, &thin())?;
+        restitution
+            .push(json!({ "inelasticity": inelasticity, "computed": computed, "zener": zener }));
     }
+    hear(0.4);
+    let edges = edges::compute(&plate)?;
+    hear(0.7);
+    Ok(json!({
+        "radius_m": radius,
+        "stress": stress,
+        "force": force.collect::<Vec<_>>(),
+        "peak_n": peak,
+        "restitution": restitution,
+        "edges": edges,
+        "residual": residual::compute()?,
+    }))
 }
 
-impl StressRow {
-    fn new(name: impl Into<String>, points: Vec<[f64; 2]>) -> Self {
-        let off = |p: &&[f64; 2], r: f64| (p[0] - r).abs();
-        let nearest = |r: f64| {
-            let points = points.iter();
-            points.min_by(|a, b| off(a, r).total_cmp(&off(b, r)))
-        };
-        Self {
-            name: name.into(),
-            columns: COLUMNS.into_iter().filter_map(nearest).copied().collect(),
-            points,
-        }
-    }
+/// A row of hoop stress: all points, m and MPa, and those next to the distances of the table.
+fn row(name: &str, points: &[[f64; 2]]) -> Value {
+    let off = |p: &&[f64; 2], r: f64| (p[0] - r).abs();
+    let nearest = |r: f64| points.iter().min_by(|a, b| off(a, r).total_cmp(&off(b, r)));
+    json!({ "name": name, "points": points, "columns": COLUMNS.map(nearest) })
 }
 
 /// Hoop stress of the plate of the tables in the middle of a half-sine: of the series, of modes and of modes with their near field.
-fn stress(plate: &frangible::Asset) -> Result<(f64, Vec<StressRow>)> {
+fn stress(plate: &frangible::Asset) -> Result<(f64, Vec<Value>)> {
     let impulse = 2.0 / std::f64::consts::PI * FORCE * DURATION;
     let top = Vec3::new(0.0, 0.0, 0.5 * PLATE.thickness as f32);
     let contact = Contact::push(top, impulse as f32 * Vec3::NEG_Z, DURATION as f32);
     let fine: Vec<f64> = (0..48).map(|i| 1e-3 * 1.065_f64.powi(i)).collect();
-    let mut rows: Vec<StressRow> = Vec::new();
+    let mut rows: Vec<Value> = Vec::new();
     let mut radius = 0.0;
     for (near, label) in [
         (None, "modes"),
@@ -164,12 +104,12 @@ fn stress(plate: &frangible::Asset) -> Result<(f64, Vec<StressRow>)> {
                 let exact = &PLATE.stress(Terms::Thin, [0.0; 2], load, &points, &[step])[0];
                 let points = seen.iter().zip(exact);
                 let points = points.map(|(p, s)| [p.distance, hoop(p, *s)]);
-                rows.insert(0, StressRow::new("all modes (series)", points.collect()));
+                let points: Vec<_> = points.collect();
+                rows.insert(0, row("all modes (series)", &points));
             }
-            let points = seen
-                .iter()
-                .map(|p| [p.distance, hoop(p, felt(&body, &blow, p, step, &config))]);
-            rows.push(StressRow::new(format!("{modes} {label}"), points.collect()));
+            let felt = |p: &Place| [p.distance, hoop(p, felt(&body, &blow, p, step, &config))];
+            let points: Vec<_> = seen.iter().map(felt).collect();
+            rows.push(row(&format!("{modes} {label}"), &points));
         }
     }
     Ok((radius, rows))
