@@ -153,7 +153,7 @@ mod tests {
             format!("const CLUSTERS: u32 = {CLUSTERS}u;"),
             format!("const ROW: u32 = {ROW}u;"),
             format!("const HEADER: u32 = {HEADER}u;"),
-            format!("const DOUBT: f32 = {:e};", super::DOUBT),
+            format!("const DOUBT: f32 = {:e};", crate::gpu::DOUBT),
         ] {
             assert!(all.contains(&line), "{line}");
         }
