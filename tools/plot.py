@@ -144,29 +144,16 @@ def sound(data):
 
 
 def figures(data):
-    for key, x in [("leaning", "angle to the floor, degrees"), ("on_rail", "place of the rail, share of the length")]:
-        rows = data["fig3"][key]
-        for k, (name, value) in enumerate([("Eq. 2, modal", "modal_s"), ("Eq. 1, Hertz", "hertz_s")]):
-            plt.plot([r["at"] for r in rows], [1e3 * r[value] for r in rows], MARKERS[k] + "-", label=name, markersize=4)
-        label("Contact duration of a rod", x, "contact duration, ms")
-        save(f"figures/fig3-{key.replace('_', '-')}.png")
     for key, y, value in [("duration", "duration, ms", lambda r: 1e3 * r["duration_s"]), ("area", "crack area, cm²", lambda r: 1e4 * r["damage"]["area_m2"])]:
         for k, model in enumerate(["the paper's model", "ours"]):
             rows = [r for r in data["fig4"]["balls"] if r["model"] == model]
             plt.plot([r["modulus_pa"] for r in rows], [value(r) for r in rows], MARKERS[k] + "-", label=model)
         label("Balls of different stiffness on a piggy bank", "stiffness of the ball, Pa", y, "log", "log" if key == "duration" else "linear")
         save(f"figures/fig4-{key}.png")
-    for k, row in enumerate(data["fig5"]):
-        time, tension = zip(*row["curve"])
-        plt.plot([t / row["duration_s"] for t in time], [1e-6 * s for s in tension], label=f"{row['model']} (t_d {1e3 * row['duration_s']:.2f} ms)")
-    label("Largest tension on the slab", "time over the contact duration t_d", "tension, MPa")
-    save("figures/fig5-tension.png")
-    for name, key, unit in [("fig7", "toughness_j_m2", "J/m²"), ("fig12", "alpha_s", "s")]:
-        rows = data[name]
-        grid = plt.subplots(2, 3, figsize=(9, 6.4))[1]
-        for axes, row in zip(grid.flat, rows):
-            lines(axes, row["lines_mm"], 150, f"{row['model']}, {row[key]:g} {unit}: {row['damage']['pieces']:.1f} pieces")
-        save(f"figures/{name}-cracks.png")
+    grid = plt.subplots(2, 3, figsize=(9, 6.4))[1]
+    for axes, row in zip(grid.flat, data["fig7"]):
+        lines(axes, row["lines_mm"], 150, f"{row['model']}, {row['toughness_j_m2']:g} J/m²")
+    save("figures/fig7-cracks.png")
 
 
 def soak(data):

@@ -34,10 +34,10 @@ impl CrackPattern {
         }
     }
 
-    /// Both ends of each piece, mm, to a hundredth.
+    /// Both ends of each piece, mm, to a tenth.
     #[must_use]
     pub fn millimetres(&self) -> Vec<[f64; 4]> {
-        let ends = |[a, b]: &[DVec2; 2]| [a.x, a.y, b.x, b.y].map(|x| (1e5 * x).round() / 100.0);
+        let ends = |[a, b]: &[DVec2; 2]| [a.x, a.y, b.x, b.y].map(|x| (1e4 * x).round() / 10.0);
         self.pieces.iter().map(ends).collect()
     }
 
