@@ -74,9 +74,9 @@ def verification(data):
 
 def experiments(data):
     stars, masses = data["stars"], data["masses"]["runs"]
-    counts = lambda run: [(c["speed"], c["mean"]) for c in run["counts"] if c["mean"] > 0]
+    counts = lambda run: [(c["speed_m_s"], c["mean"]) for c in run["counts"] if c["mean"] > 0]
     curves(stars["runs"], lambda r: f"computed, {1e3 * r['thickness_m']:g} mm", counts)
-    measured = [(m["speed"], m["measured"]) for m in stars["beside_measured"]]
+    measured = [(m["speed_m_s"], m["measured"]) for m in stars["beside_measured"]]
     plt.plot(*zip(*measured), "D", color=COLOURS[3], label="measured, 1 mm, means")
     plt.plot([22.2, 56.7], [4, 8], "x", color=COLOURS[4], label="measured, 1 mm, photographs")
     (v, n), speeds = measured[0], [10, 113]
@@ -99,7 +99,7 @@ def experiments(data):
     figure, grid = plt.subplots(2, columns, figsize=(2.5 * columns, 5.6))
     for axes, pattern in zip(grid.flat, patterns):
         name = "default" if pattern["variant"] == "default" else "at once"
-        lines(axes, pattern["lines"] or [], 50, f"{name}, {pattern['speed']:g} m/s")
+        lines(axes, pattern["lines_mm"] or [], 50, f"{name}, {pattern['speed_m_s']:g} m/s")
         axes.add_patch(plt.Circle((0, 0), 10, fill=False, color=COLOURS[1], linewidth=0.8))
     figure.suptitle("Cracks of a 1 mm PMMA plate")
     save("experiments/star-patterns.png")
@@ -127,7 +127,7 @@ def sound(data):
             plt.plot([time[k] for k in landings], [row["levels_db"][k] for k in landings], MARKERS[i], color=COLOURS[i], markersize=4)
         label(scene, "time, s", "level of 20 ms, dB over full scale")
         save(f"sound/level-{scene}.png")
-    marks = {scene["name"]: scene["blows"] for scene in data["scenes"]}
+    marks = {scene["name"]: scene["blows_s"] for scene in data["scenes"]}
     for path in sorted(SOUNDS.glob("*.wav")):
         with wave.open(str(path)) as file:
             rate, raw = file.getframerate(), file.readframes(file.getnframes())

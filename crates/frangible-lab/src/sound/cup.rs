@@ -57,10 +57,13 @@ pub struct Cup {
 #[derive(Clone, Debug, Serialize)]
 pub struct Knocked {
     /// Its lowest four modes, Hz.
+    #[serde(rename = "modes_hz")]
     pub modes: Vec<f64>,
     /// The strongest tone below 6 kHz, Hz.
+    #[serde(rename = "tone_hz")]
     pub tone: f64,
     /// The times after which 10, 20 and 30 dB less of the sound's energy is still to come, s.
+    #[serde(rename = "falls_s")]
     pub falls: [f64; 3],
     /// Share of the blow's energy that friction has taken.
     pub rubbed: f64,

@@ -29,12 +29,16 @@ const BOUNCE: f64 = 0.3;
 #[derive(Clone, Debug, Serialize)]
 pub struct Landing {
     /// Mass, kg.
+    #[serde(rename = "mass_kg")]
     pub mass: f64,
     /// Longer side, m.
+    #[serde(rename = "side_m")]
     pub side: f64,
     /// For each of `SPEEDS`: the loudest pressure, and the highest level of a meter set to *fast*, dB.
+    #[serde(rename = "levels_db")]
     pub levels: Vec<[f64; 2]>,
     /// Lowest tone, Hz; its time of decay by 60 dB, s; and that of the material alone.
+    #[serde(rename = "lowest_hz_s_s")]
     pub lowest: [f64; 3],
 }
 

@@ -22,8 +22,10 @@ const LONG: f64 = 2.0;
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Partial {
     /// Frequency of the mode of the bake, Hz.
+    #[serde(rename = "mode_hz")]
     pub mode: f64,
     /// Frequency that was found in the sound, Hz.
+    #[serde(rename = "heard_hz")]
     pub heard: f64,
     /// Published or in closed form, as a multiple of the first.
     pub known: f64,

@@ -25,24 +25,30 @@ pub struct HeardScene {
     /// Strikes on something, and cracks that were heard.
     pub events: [usize; 2],
     /// Time of the first sound, s: as expected from the first blow and the distance, and as heard.
+    #[serde(rename = "onset_s")]
     pub onset: [f64; 2],
     /// The loudest pressure, dB over 20 µPa: full scale of its WAV.
+    #[serde(rename = "loudest_db")]
     pub loudest: f64,
     /// Mean of the samples over their root mean square.
     pub offset: f64,
     /// Time until the level of the last tenth of a second is 60 dB below the loudest, s.
+    #[serde(rename = "long_s")]
     pub long: f64,
     /// Most bodies and resonators at once.
     pub most: [usize; 2],
     /// Times of the blows, s.
+    #[serde(rename = "blows_s")]
     pub blows: Vec<f64>,
     /// Left channel.
     #[serde(skip)]
     pub samples: Vec<f32>,
     /// Energy that the scene lost, J.
+    #[serde(rename = "lost_j")]
     pub lost: f64,
     /// Energy radiated, J, and at 1 m the loudest pressure and the highest level of a meter set to *fast*, dB: of all sources together, and of blows,
     /// cracks, touches and slides by themselves.
+    #[serde(rename = "sources_j_db_db")]
     pub sources: [[f64; 3]; 5],
 }
 

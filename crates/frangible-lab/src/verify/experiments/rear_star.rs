@@ -28,14 +28,18 @@ const RADIUS: f64 = 6e-3;
 #[derive(Clone, Debug, Serialize)]
 pub struct RearStarPlan {
     /// Thicknesses of the plates, m.
+    #[serde(rename = "thicknesses_m")]
     pub thicknesses: Vec<f64>,
     /// Speeds of the ball, m/s.
+    #[serde(rename = "speeds_m_s")]
     pub speeds: Vec<f64>,
     /// Plates per thickness and speed, seeds 1 and up.
     pub seeds: u64,
     /// Edge of the fracture mesh, m.
+    #[serde(rename = "edge_m")]
     pub edge: f64,
     /// Edge of the analysis mesh, m.
+    #[serde(rename = "analysis_edge_m")]
     pub analysis_edge: f64,
     /// Vibration modes.
     pub modes: usize,

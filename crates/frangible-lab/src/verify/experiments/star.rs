@@ -32,16 +32,21 @@ const MEASURED: [(f64, f64); 2] = [(70.0 / 3.6, 4.0), (280.0 / 3.6, 8.0)];
 #[derive(Clone, Debug, Serialize)]
 pub struct StarPlan {
     /// Thicknesses of the plates, m.
+    #[serde(rename = "thicknesses_m")]
     pub thicknesses: Vec<f64>,
     /// Speeds of the projectile, m/s.
+    #[serde(rename = "speeds_m_s")]
     pub speeds: Vec<f64>,
     /// Plates per speed, seeds 1 and up.
     pub seeds: u64,
     /// Speeds at which the variants are computed, of `speeds`; none leaves the variants out.
+    #[serde(rename = "variant_speeds_m_s")]
     pub variant_speeds: Vec<f64>,
     /// Edge of the fracture mesh, m.
+    #[serde(rename = "edge_m")]
     pub edge: f64,
     /// Edge of the analysis mesh, m.
+    #[serde(rename = "analysis_edge_m")]
     pub analysis_edge: f64,
     /// Vibration modes.
     pub modes: usize,
@@ -79,6 +84,7 @@ pub struct StarRun {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Count {
     /// Speed of the projectile, m/s.
+    #[serde(rename = "speed_m_s")]
     pub speed: f64,
     /// Mean over the seeds.
     pub mean: f64,
@@ -251,7 +257,7 @@ impl StarRun {
         let rows = MEASURED.map(|(speed, measured)| {
             let Count { mean, error, .. } = interpolated(&counts, speed);
             json!({
-                "speed": speed, "mean": mean, "error": error, "measured": measured,
+                "speed_m_s": speed, "mean": mean, "error": error, "measured": measured,
                 "ratio": mean / measured, "ratio_error": error / measured,
             })
         });
@@ -267,7 +273,7 @@ impl Stars {
         let counts: Vec<Vec<Count>> = self.runs.iter().map(StarRun::counts).collect();
         let at = |i: usize| counts.iter().map(|c| c[i]).collect::<Vec<_>>();
         let by_speed =
-            (0..plan.speeds.len()).map(|i| json!({ "speed": plan.speeds[i], "runs": at(i) }));
+            (0..plan.speeds.len()).map(|i| json!({ "speed_m_s": plan.speeds[i], "runs": at(i) }));
         let mut data = json!({
             "plan": plan,
             "runs": self.runs.iter().map(StarRun::data).collect::<Vec<_>>(),
@@ -296,7 +302,7 @@ impl Stars {
             let impacts = run.impacts.iter();
             let mut first = impacts.filter(|m| m.speed == speed && m.seed == 1);
             let lines = first.next().map(|m| m.pattern.millimetres());
-            json!({ "variant": run.variant, "speed": speed, "lines": lines })
+            json!({ "variant": run.variant, "speed_m_s": speed, "lines_mm": lines })
         };
         let drawn = variants.iter().take(2);
         let drawn = drawn.flat_map(|run| plan.variant_speeds.iter().map(|&v| lines(run, v)));
