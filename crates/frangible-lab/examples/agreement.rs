@@ -1,172 +1,139 @@
-//! Compares the pipeline with the reference over generated impacts, times both, and shows the effect of other readings of the paper.
+//! Compares the pipeline with the reference over generated impacts, and shows the effect of other readings of the paper.
 //!
-//! `cargo run --release -p frangible-lab --example agreement -- [IMPACTS PER BODY]`
+//! `cargo run --release -p frangible-lab --example agreement -- [IMPACTS PER BODY]` prints JSON, for `docs/data/agreement.json`.
 
-use std::error::Error;
-use std::sync::OnceLock;
-use std::time::Instant;
-
+use frangible::FractureConfig;
 use frangible::internals::impact_traced;
-use frangible::{FractureConfig, impact};
+use frangible_lab::Result;
+use frangible_lab::data::{Measures, stored};
 use frangible_lab::reference::agreement::{MARGIN, compare, compare_first_start};
 use frangible_lab::reference::bodies::{Case, baked_cases, impact as generate, linear_cases};
 use frangible_lab::reference::{
     EnergyTest, Field, Initiation, Marks, Options, TimeStep, first_crack, fracture,
 };
+use serde_json::{Value, json};
 
-fn main() -> Result<(), Box<dyn Error>> {
-    let impacts = match std::env::args().nth(1) {
-        Some(n) => n.parse()?,
-        None => 100,
-    };
+/// Impacts on each body for the means of a reading, at most.
+const READ: u64 = 20;
+
+fn main() -> Result<()> {
+    let impacts = std::env::args().nth(1).map_or(Ok(60), |n| n.parse())?;
     let (linear, baked) = (linear_cases()?, baked_cases()?);
-    println!(
-        "body, tetrahedra: impacts, torn; mismatches outside the margin, inside; pipeline, reference (ms)"
-    );
-    println!("The paper's model, linear elements:");
-    run(&linear, impacts, Field::Linear, false)?;
-    println!("The paper's model, quadratic elements:");
-    run(&baked, impacts, Field::Embedded, false)?;
-    println!("Our model until its first crack, quadratic elements:");
-    run(&baked, impacts, Field::Embedded, true)?;
-    println!(
-        "Readings of the paper, linear elements, means of {} impacts a body:",
-        impacts.min(20)
-    );
-    readings(&linear, impacts.min(20))
+    let agreement = [
+        agreement(
+            "the paper's model, linear elements",
+            &linear,
+            impacts,
+            Field::Linear,
+            false,
+        )?,
+        agreement(
+            "the paper's model, quadratic elements",
+            &baked,
+            impacts,
+            Field::Embedded,
+            false,
+        )?,
+        agreement(
+            "ours until its first crack",
+            &baked,
+            impacts,
+            Field::Embedded,
+            true,
+        )?,
+    ];
+    let readings = readings(&linear, impacts.min(READ))?;
+    let found = json!({ "agreement": agreement, "readings": readings });
+    println!("{:#}", stored(Measures::Model, false, &found)?);
+    Ok(())
 }
 
-/// Processor time of this thread if Linux reports it, else the time on the clock; s.
-fn seconds() -> f64 {
-    static START: OnceLock<Instant> = OnceLock::new();
-    let elapsed = || START.get_or_init(Instant::now).elapsed().as_secs_f64();
-    std::fs::read_to_string("/proc/thread-self/schedstat")
-        .ok()
-        .and_then(|text| text.split_whitespace().next()?.parse::<f64>().ok())
-        .map_or_else(elapsed, |nanoseconds| nanoseconds * 1e-9)
-}
-
-fn run(cases: &[Case], impacts: u64, field: Field, ours: bool) -> Result<(), Box<dyn Error>> {
+fn agreement(model: &str, cases: &[Case], impacts: u64, field: Field, ours: bool) -> Result<Value> {
     let mut config = FractureConfig::with_given_impulses();
     if !ours {
         config = FractureConfig::as_in_the_paper();
         config.crumb_share = 0.0;
     }
-    let mut all = [0; 4];
+    let (mut torn, mut inside, mut outside) = (0, 0, Vec::new());
     for case in cases {
-        // Tried, torn, outside, inside.
-        let mut count = [impacts, 0, 0, 0];
-        let (mut pipeline_seconds, mut reference_seconds) = (0.0, 0.0);
         for number in 0..impacts {
             let (body, contacts) = generate(case, number)?;
-            let start = seconds();
-            impact(&body, &contacts, &config)?;
-            pipeline_seconds += seconds() - start;
             let (outcome, trace) = impact_traced(&body, &contacts, &config)?;
-            let report = outcome.report();
-            let start = seconds();
             let difference = if ours {
                 let options = Options::first_crack_of_ours();
                 let reference = first_crack(&body, &contacts, field, &options)?;
-                reference_seconds += seconds() - start;
-                compare_first_start(report, &trace, &reference)
+                compare_first_start(outcome.report(), &trace, &reference)
             } else {
                 let reference = fracture(&body, &contacts, field, &Options::default())?;
-                reference_seconds += seconds() - start;
-                compare(report, &trace, &reference)
+                compare(outcome.report(), &trace, &reference)
             };
-            count[1] += u64::from(!trace.cracks.is_empty());
-            if let Err(mismatch) = difference {
-                let inside = mismatch.margin < MARGIN;
-                count[if inside { 3 } else { 2 }] += 1;
-                println!(
-                    "    {number}: {}, margin {:.1e}",
-                    mismatch.what, mismatch.margin
-                );
+            torn += u64::from(!trace.cracks.is_empty());
+            match difference {
+                Err(other) if other.margin < MARGIN => inside += 1,
+                Err(other) => outside.push(json!({
+                    "body": case.asset.name(), "impact": number, "what": other.what, "margin": other.margin,
+                })),
+                Ok(()) => {}
             }
         }
-        let ms = 1e3 / impacts as f64;
-        println!(
-            "  {}, {}: {impacts}, {}; {}, {}; {:.1}, {:.1}",
-            case.asset.name(),
-            case.asset.fracture().tets.len(),
-            count[1],
-            count[2],
-            count[3],
-            pipeline_seconds * ms,
-            reference_seconds * ms,
-        );
-        for (sum, n) in all.iter_mut().zip(count) {
-            *sum += n;
-        }
     }
-    let [tried, torn, outside, inside] = all;
-    println!("  all: {tried} impacts, {torn} torn; {outside} outside the margin, {inside} inside");
-    Ok(())
+    let tried = impacts * cases.len() as u64;
+    Ok(
+        json!({ "model": model, "impacts": tried, "torn": torn, "inside": inside, "outside": outside }),
+    )
 }
 
-fn readings(cases: &[Case], impacts: u64) -> Result<(), Box<dyn Error>> {
-    let default = Options::default();
+/// Means over all bodies for each reading of the paper.
+fn readings(cases: &[Case], impacts: u64) -> Result<Vec<Value>> {
+    let with = |change: fn(&mut Options)| {
+        let mut options = Options::default();
+        change(&mut options);
+        options
+    };
     let readings = [
-        ("as compared above", default),
+        ("as compared above", Options::default()),
         (
             "Eq. 3 as printed",
-            Options {
-                time_step: TimeStep::AsPrinted,
-                ..default
-            },
+            with(|o| o.time_step = TimeStep::AsPrinted),
         ),
         (
             "half a period a step",
-            Options {
-                time_step: TimeStep::Nyquist,
-                ..default
-            },
+            with(|o| o.time_step = TimeStep::Nyquist),
         ),
         (
             "the nearest weak element",
-            Options {
-                initiation: Initiation::NearestWeak,
-                ..default
-            },
+            with(|o| o.initiation = Initiation::NearestWeak),
         ),
         (
             "Algorithm 2's energy test",
-            Options {
-                energy_test: EnergyTest::AsPrinted,
-                ..default
-            },
+            with(|o| o.energy_test = EnergyTest::AsPrinted),
         ),
-        (
-            "marks at the nodes",
-            Options {
-                marks: Marks::Nodes,
-                ..default
-            },
-        ),
+        ("marks at the nodes", with(|o| o.marks = Marks::Nodes)),
         // The constant that gives Hertz' duration for a period of 1 ms, a radius of 2 cm.
         ("all as printed, c = 0.02", Options::as_printed(0.02)),
     ];
-    for (name, options) in readings {
-        let (mut steps, mut cracks, mut area, mut pieces) = (0, 0, 0.0, 0);
+    let mean = |(name, options): (&str, Options)| {
+        let mut sums = [0.0; 4];
         for case in cases {
             for number in 0..impacts {
                 let (body, contacts) = generate(case, number)?;
                 let result = fracture(&body, &contacts, Field::Linear, &options)?;
-                steps += result.steps;
-                cracks += result.cracks.len();
-                area += result.cracks.iter().map(|c| c.area).sum::<f64>();
-                pieces += result.fragment_of_node.iter().max().map_or(0, |&f| f + 1);
+                let area = result.cracks.iter().map(|c| c.area).sum::<f64>();
+                let pieces = result.fragment_of_node.iter().max().map_or(0, |&f| f + 1);
+                let found = [
+                    result.steps as f64,
+                    result.cracks.len() as f64,
+                    area,
+                    f64::from(pieces),
+                ];
+                sums = std::array::from_fn(|i| sums[i] + found[i]);
             }
         }
-        let count = (cases.len() as u64 * impacts) as f64;
-        println!(
-            "  {name}: {:.0} steps, {:.1} cracks, {:.1} cm², {:.1} pieces",
-            steps as f64 / count,
-            cracks as f64 / count,
-            area * 1e4 / count,
-            f64::from(pieces) / count,
-        );
-    }
-    Ok(())
+        let [steps, cracks, area, pieces] =
+            sums.map(|sum| sum / (cases.len() as u64 * impacts) as f64);
+        Ok(
+            json!({ "reading": name, "steps": steps, "cracks": cracks, "area_m2": area, "pieces": pieces }),
+        )
+    };
+    readings.into_iter().map(mean).collect()
 }

@@ -2,7 +2,6 @@
 //!
 //! `count_instructions list | bake FILE | run FILE CASE`
 
-use std::error::Error;
 use std::hint::black_box;
 
 use frangible::Asset;
@@ -21,7 +20,7 @@ const CASES: [(&str, usize); 8] = [
     ("break-in-our-model", 1),
 ];
 
-fn main() -> Result<(), Box<dyn Error>> {
+fn main() -> frangible_lab::Result<()> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
     match words[..] {

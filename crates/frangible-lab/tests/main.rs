@@ -1,10 +1,10 @@
-//! The evidence itself, and the program that writes it.
+//! The evidence itself, the data and the pages that quote it, and the program that measures.
 
 mod agreement;
 mod cases;
+mod compare;
+mod evidence;
 mod experiments;
-mod haptic;
-mod live;
+mod gpu;
 mod pieces;
 mod program;
-mod shop;

@@ -124,7 +124,7 @@ pub struct WorldConfig {
     /// Detail of the collider of a whole body; that of a box is a box. Default: all the convex cells of the bake, 128 points each.
     pub whole_collider: ColliderDetail,
     /// Detail of the colliders of fragments; those that a single hull fits have one part. Default: 12 parts of at most 128 points. It dominates
-    /// the cost of a heap of pieces. Measured in `frangible-lab bench shop`, Rapier's time per frame, when every hull had all the points that it
+    /// the cost of a heap of pieces. Measured in the china shop of `frangible-lab`, Rapier's time per frame, when every hull had all the points that it
     /// may have: every share of a cell with 128 points 97 ms, 12 parts of 48 points 45 ms, 4 parts of 24 points with
     /// [`WorldConfig::hull_volume_ratio`] 3 13 ms.
     pub fragment_collider: ColliderDetail,

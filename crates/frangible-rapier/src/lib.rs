@@ -49,7 +49,7 @@
 //! For scenes with hundreds of bodies use [`Breaking::AfterStep`], which needs no copy and no second step and spreads the work over
 //! steps and threads; [`ColliderDetail`] for simple colliders; [`WorldConfig::dust_mass`] and [`WorldConfig::debris_mass`] for
 //! negligible pieces; and the feature `parallel` for Rapier's own threads. Results are bit-identical for any number of threads. The
-//! china shop in `frangible_lab::bench` has a thousand bodies.
+//! china shop, the example `shop` of the unpublished crate `frangible-lab`, has a thousand bodies.
 //!
 //! # Resting pieces
 //! Pieces that stay in their place sleep, become fixed, are removed, or are merged into one fixed body with one compound collider for each body

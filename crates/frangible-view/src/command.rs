@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 
 use frangible::glam::Vec3;
-use frangible_compare::Method;
 
 use crate::error::{ViewError, within};
 
@@ -14,7 +13,7 @@ pub enum Command {
     Scene(String),
     /// Load a scene file, a mesh or a baked body.
     Open(PathBuf),
-    /// Cancel the running bake or comparison of methods.
+    /// Cancel the running bake.
     CancelBake,
     /// Restart the scene with the current knobs.
     Reset,
@@ -101,8 +100,6 @@ pub enum Command {
     Material(String),
     /// Repeat the last impact on the intact body with the current knobs, and show both outcomes side by side.
     HitAgain,
-    /// Compare these methods on the last impact, up to four side by side; an empty list means those shown before, or the first four.
-    CompareMethods(Vec<Method>),
     /// Write a file.
     Save(Target, PathBuf),
     /// Draw a film of the last seconds off-screen, or path-trace a still, and write it.
@@ -156,8 +153,6 @@ pub enum Subject {
     Modes,
     /// The last impact, and the same impact with the current knobs.
     Compare,
-    /// The last impact by several methods.
-    Methods,
 }
 
 impl Subject {

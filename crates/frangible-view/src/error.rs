@@ -51,9 +51,6 @@ pub enum ViewError {
     /// The fracture model rejected its input.
     #[error(transparent)]
     Fracture(#[from] frangible::InputError),
-    /// The fracture methods cannot be compared.
-    #[error(transparent)]
-    Compare(#[from] frangible_compare::CompareError),
     /// The material is unknown.
     #[error(transparent)]
     Material(#[from] frangible::internals::UnknownMaterial),

@@ -29,7 +29,6 @@ mod jobs;
 pub mod knobs;
 mod marks;
 mod mesher;
-mod methods;
 pub mod numbers;
 mod parse;
 mod picking;
@@ -54,7 +53,6 @@ pub use command::{
 pub use error::ViewError;
 pub use frangible_sound::Outlet;
 pub use host::{Delivery, Host};
-pub use methods::{Methods, Outcome};
 pub use picture::{Batch, BatchLooks, Dot, Label, Line, Picture};
 pub use script::Script;
 pub use session::Session;

@@ -1,12 +1,10 @@
 //! Numbers of a contact for the panels, as plain data that can be sent to the window's thread.
 
 use frangible::glam::Vec3;
-use frangible_compare::Method;
 
 use crate::blow::Blow;
 use crate::command::Subject;
 use crate::knobs::{KNOBS, Settings};
-use crate::methods::Methods;
 use crate::shown::Compared;
 
 /// Numbers of the last significant contact.
@@ -162,31 +160,6 @@ impl From<&Compared> for ComparedNumbers {
             blows: compared.blows.each_ref().map(|blow| (&**blow).into()),
             differences: compared.differences.clone(),
         }
-    }
-}
-
-/// Numbers of one method's outcome for an impact.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct OutcomeNumbers {
-    /// The method.
-    pub method: Method,
-    /// Number of pieces; 1 if the body did not break.
-    pub pieces: usize,
-    /// Volume fraction of the largest piece.
-    pub largest_share: f64,
-    /// Area of its cracks, one side, m².
-    pub crack_area: f64,
-    /// Fracture energy of its cracks, J.
-    pub energy: f64,
-    /// Time from the contacts to the pieces, s.
-    pub seconds: f64,
-}
-
-impl OutcomeNumbers {
-    /// Numbers of the methods that are shown, as far as they have come.
-    pub(crate) fn of(methods: &Methods) -> Vec<Self> {
-        let outcomes = methods.chosen.iter().filter_map(|m| methods.outcome(*m));
-        outcomes.map(|outcome| outcome.numbers.clone()).collect()
     }
 }
 

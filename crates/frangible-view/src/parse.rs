@@ -13,13 +13,12 @@ use frangible_bake::frangible_mesh::did_you_mean;
 
 use crate::command::{BallSpec, Command, HammerSpec};
 use crate::error::ViewError;
-use crate::methods::named_methods;
 
 use films::{FILMS, film};
 use words::{MARKS, SUBJECTS, TARGETS, TOOLS, file, number, one_of, vector, whole};
 
 /// First word of each command, and its arguments.
-const FORMS: [(&str, &str); 49] = [
+const FORMS: [(&str, &str); 48] = [
     ("scene", "NAME"),
     ("open", "FILE"),
     ("cancel-bake", ""),
@@ -41,7 +40,7 @@ const FORMS: [(&str, &str); 49] = [
     ("let-go", ""),
     ("drop", "METRES"),
     ("undo", ""),
-    ("look", "world|stress|cracks|modes|compare|methods"),
+    ("look", "world|stress|cracks|modes|compare"),
     ("scrub", "SHARE"),
     ("exaggerate", "FACTOR"),
     ("explode", "FACTOR"),
@@ -59,7 +58,6 @@ const FORMS: [(&str, &str); 49] = [
     ("reset-knob", "NAME|all"),
     ("material", "NAME"),
     ("hit-again", ""),
-    ("compare-methods", "first|METHOD,METHOD"),
     (
         "save",
         "scene|glb|script|report|times|still|gif|frames|mp4 FILE",
@@ -179,7 +177,6 @@ fn read(first: &str, rest: &[&str], tail: &str) -> Result<Command, String> {
         "reset-knob" => Command::ResetKnob(rest[0].into()),
         "material" => Command::Material(tail.into()),
         "hit-again" => Command::HitAgain,
-        "compare-methods" => Command::CompareMethods(named_methods(rest[0])?),
         "save" if FILMS.iter().any(|(name, _)| *name == rest[0]) => film(rest[0], tail)?,
         "save" => Command::Save(one_of(rest[0], &TARGETS)?, file(tail)),
         "cancel-save" => Command::CancelSave,

@@ -1,7 +1,6 @@
 //! Files of a session.
 
 use std::path::Path;
-use std::sync::Arc;
 
 use frangible::ImpactReport;
 use frangible_export::write_glb;
@@ -12,7 +11,6 @@ use serde::Serialize;
 use crate::blow::Blow;
 use crate::command::Target;
 use crate::error::ViewError;
-use crate::numbers::OutcomeNumbers;
 use crate::session::Session;
 
 impl Session {
@@ -51,15 +49,7 @@ impl Session {
                         "there has been no contact yet, so there is nothing to report".into(),
                     )
                 })?;
-                let mut report = Report::of(blow);
-                if let Some(methods) = &self.methods().filter(|m| Arc::ptr_eq(&m.blow, blow)) {
-                    report.methods = methods
-                        .outcomes
-                        .iter()
-                        .map(|o| MethodNumbers::of(&o.numbers))
-                        .collect();
-                }
-                json(&report)
+                json(&Report::of(blow))
             }
         })
     }
@@ -98,33 +88,6 @@ struct Report<'a> {
     peak_stress_pa: f64,
     strength_pa: f64,
     weak_points: usize,
-    /// Outcomes of other methods, in the order in which they were computed.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    methods: Vec<MethodNumbers>,
-}
-
-/// Numbers of a method.
-#[derive(Serialize)]
-struct MethodNumbers {
-    method: &'static str,
-    pieces: usize,
-    largest_share: f64,
-    crack_area_m2: f64,
-    energy_j: f64,
-    milliseconds: f64,
-}
-
-impl MethodNumbers {
-    fn of(outcome: &OutcomeNumbers) -> Self {
-        Self {
-            method: outcome.method.name(),
-            pieces: outcome.pieces,
-            largest_share: outcome.largest_share,
-            crack_area_m2: outcome.crack_area,
-            energy_j: outcome.energy,
-            milliseconds: 1e3 * outcome.seconds,
-        }
-    }
 }
 
 impl<'a> Report<'a> {
@@ -146,7 +109,6 @@ impl<'a> Report<'a> {
             peak_stress_pa: report.peak_stress,
             strength_pa: report.strength,
             weak_points: report.weak_points,
-            methods: Vec::new(),
         }
     }
 }

@@ -8,7 +8,6 @@ mod collect;
 mod grab;
 mod heard;
 mod look;
-mod methods;
 mod obey;
 mod play;
 mod start;
@@ -34,7 +33,6 @@ use crate::host::Host;
 use crate::jobs::Job;
 use crate::knobs::Settings;
 use crate::mesher::Mesher;
-use crate::methods::Methods;
 use crate::picture::Picture;
 use crate::shown::{Compared, Focus};
 use crate::times::Laps;
@@ -66,13 +64,11 @@ pub struct Session {
     break_step: StepTimings,
     analysis: Option<Arc<Analysis>>,
     compared: Option<Arc<Compared>>,
-    methods: Option<Arc<Methods>>,
     bake_job: Option<Job<Result<Vec<BakedBody>, SceneError>>>,
     /// True if the last impact is to be taken again when the bake is done, and the scene is to go on as it is.
     hits_again: bool,
     analysis_job: Option<Job<Result<Analysis, frangible::InputError>>>,
     again_job: Option<Job<Result<turn::Again, ViewError>>>,
-    methods_job: Option<methods::MethodsJob>,
     subject: Subject,
     scrub: f64,
     exaggeration: f64,
@@ -130,12 +126,10 @@ impl Session {
             break_step: StepTimings::default(),
             analysis: None,
             compared: None,
-            methods: None,
             bake_job: None,
             hits_again: false,
             analysis_job: None,
             again_job: None,
-            methods_job: None,
             subject: Subject::World,
             scrub: 0.0,
             exaggeration: 1.0,

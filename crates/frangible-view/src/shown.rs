@@ -3,13 +3,12 @@
 use std::sync::Arc;
 
 use frangible::glam::Vec3;
-use frangible_compare::Method;
 use frangible_rapier::{LoadCounts, StepTimings};
 use frangible_recording::View;
 
 use crate::blow::Blow;
 use crate::command::{BallSpec, HammerSpec, Mark, Subject, Tool};
-use crate::numbers::{BlowNumbers, ComparedNumbers, Course, KnobValues, OutcomeNumbers};
+use crate::numbers::{BlowNumbers, ComparedNumbers, Course, KnobValues};
 use crate::picture::Picture;
 use crate::times::Spread;
 
@@ -88,10 +87,6 @@ pub struct Shown {
     pub selection: Option<Selection>,
     /// Two outcomes of one impact.
     pub compared: Option<ComparedNumbers>,
-    /// Fracture methods compared for the last impact, once requested.
-    pub chosen: Option<Vec<Method>>,
-    /// Outcomes of those methods computed so far.
-    pub methods: Vec<OutcomeNumbers>,
     /// Values of the knobs.
     pub knobs: Option<KnobValues>,
     /// True if a knob has been changed since the scene was set up.

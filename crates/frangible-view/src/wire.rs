@@ -7,12 +7,11 @@
 use std::sync::Arc;
 
 use frangible::glam::Vec3;
-use frangible_compare::Method;
 use frangible_rapier::{LoadCounts, StepTimings};
 use frangible_recording::{Floor, Grain, SurfaceMaterial, View};
 
 use crate::command::{BallSpec, HammerSpec, Mark, Subject, Tool};
-use crate::numbers::{BlowNumbers, ComparedNumbers, Course, KnobValues, OutcomeNumbers, Series};
+use crate::numbers::{BlowNumbers, ComparedNumbers, Course, KnobValues, Series};
 use crate::parse::words::{MARKS, SUBJECTS, TOOLS};
 use crate::picture::{Batch, BatchLooks, Dot, Label, Line, Picture};
 use crate::shown::{BakeShown, Focus, Selection, Shown};
@@ -259,7 +258,6 @@ const GRAINS: [Grain; 6] = [
 ];
 
 choices! {
-    Method: Method::ALL;
     Grain: GRAINS;
     Subject: SUBJECTS.map(|(_, subject)| subject);
     Mark: MARKS.map(|(_, mark)| mark);
@@ -288,7 +286,7 @@ fields! {
     Shown {
         commands, busy, scene, summary, starts, home, focus, time, steps, paused, slow_motion, sound, whole, pieces, fingerprint,
         undoable, ball, hammer, tool, bake, filming, reel, analysing, message, subject, scrub, exaggeration, explode, marks, mode, blow, largest_color,
-        selection, compared, chosen, methods, knobs, turned, contacts, break_step, publishing,
+        selection, compared, knobs, turned, contacts, break_step, publishing,
     }
     View { eye, target, up, vertical_fov }
     Focus { number, on }
@@ -309,7 +307,6 @@ fields! {
     StepTimings { rigid, undone, copies, contacts, fracture, fragments, loads, upkeep }
     Spread { count, median, p99 }
     Floor { height, base_color }
-    OutcomeNumbers { method, pieces, largest_share, crack_area, energy, seconds }
     Line { ends, color, width }
     Dot { at, color, size }
     Label { at, text }

@@ -6,7 +6,6 @@ mod film;
 mod hammer;
 mod host;
 mod meshes;
-mod methods;
 mod session;
 mod sound;
 mod wire;

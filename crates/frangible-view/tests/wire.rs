@@ -27,7 +27,6 @@ fn what_is_read_is_what_was_written() {
         "look modes",
         "knob strength 40",
         "hit-again",
-        "compare-methods ours,voronoi",
         "look world",
         "select 0.06,0.1,1 0.06,0.1,0",
         "explode 1",

@@ -24,10 +24,8 @@ pub(super) fn example(folder: &Path, prefix: &Path) -> Result<Vec<String>> {
         return skipped("c: Bullet", why);
     }
     let glass = glass(folder)?;
-    // Those that write the page compile too.
-    for name in ["engines", "frames"] {
-        compiled(name, name, &[], folder, prefix)?;
-    }
+    // The one that writes the page compiles too.
+    compiled("engines", "engines", &[], folder, prefix)?;
     for (name, flags) in [
         ("bullet", &[][..]),
         ("bullet-sanitized", &["-g", SANITIZERS]),
@@ -49,26 +47,7 @@ fn glass(folder: &Path) -> Result<PathBuf> {
     Ok(file)
 }
 
-/// Draws what the example plays, `docs/engines/bullet-*.jpg`.
-fn pictures(folder: &Path, prefix: &Path) -> Result {
-    let program = compiled("frames", "frames", &[], folder, prefix)?;
-    for (scene, file) in [("pane", root().join(PANE)), ("glass", glass(folder)?)] {
-        let mut play = Command::new(&program);
-        play.arg(scene).arg(file);
-        println!("$ {}", shown(&play));
-        let text = folder.join(format!("{scene}.txt"));
-        std::fs::write(&text, output(&mut play)?)
-            .map_err(|error| format!("`{}` cannot be written: {error}", text.display()))?;
-        let draw = ["run", "--release", "--package=frangible-lab"];
-        let mut draw = cargo(&draw);
-        draw.args(["--example=bullet_pictures", "--"]).arg(&text);
-        draw.arg(root().join(format!("docs/engines/bullet-{scene}.jpg")));
-        announced(&mut draw)?;
-    }
-    Ok(())
-}
-
-/// Writes the section of docs/engines.md, with its pictures.
+/// Writes the section of docs/engines.md.
 pub(super) fn section(folder: &Path, prefix: &Path) -> Result<Vec<String>> {
     if let Some(why) = missing() {
         return Err(why.into());
@@ -78,7 +57,6 @@ pub(super) fn section(folder: &Path, prefix: &Path) -> Result<Vec<String>> {
     println!("$ {}", shown(&program));
     let made = output(&mut program)?;
     let made = String::from_utf8_lossy(&made);
-    pictures(folder, prefix)?;
     let path = root().join("docs/engines.md");
     let page = read(&path)?;
     let page = String::from_utf8_lossy(&page);

@@ -1,12 +1,12 @@
 //! Bodies to break, and the features of each.
 
-use std::error::Error;
 use std::f32::consts::FRAC_PI_2;
 use std::sync::Arc;
 
 use frangible::glam::{DVec3, Quat, Vec3};
 use frangible::{Breakable, Contact, FractureConfig, Material, Striker};
 use frangible_bake::{BakeSpec, Shape, SolidShape};
+use frangible_lab::Result;
 use frangible_mesh::DistanceSolid;
 use frangible_scenes::{
     Place, Projectile, Region, Scene, Support, bake, breakable, first_break, scene,
@@ -26,7 +26,7 @@ pub(crate) struct Subject {
 }
 
 /// All subjects, in the order of the page.
-pub(crate) fn all() -> Result<Vec<Subject>, Box<dyn Error>> {
+pub(crate) fn all() -> Result<Vec<Subject>> {
     let as_it_is = |_: &mut Scene| {};
     let thrown = |ball: Projectile| move |scene: &mut Scene| scene.throw(ball);
     let dropped = |height: f64| move |scene: &mut Scene| scene.drop_all(height);
@@ -105,7 +105,7 @@ fn subject(
     blow: &str,
     change: impl FnOnce(&mut Scene),
     features: Vec<Feature>,
-) -> Result<Subject, Box<dyn Error>> {
+) -> Result<Subject> {
     let mut scene = scene(name)?;
     change(&mut scene);
     let bodies = bake(&scene)?;
@@ -127,7 +127,7 @@ fn subject(
 }
 
 /// A ball of ice, 60 mm wide, thrown on stone.
-fn ice_ball(speed: f32) -> Result<Subject, Box<dyn Error>> {
+fn ice_ball(speed: f32) -> Result<Subject> {
     let (ice, stone) = (Material::preset("ice")?, Material::preset("stone")?);
     let shape = SolidShape {
         tets: 40_000,
@@ -194,7 +194,7 @@ impl Struck {
 }
 
 /// The bottle of the scene, hit at the same place by a steel ball of 1 kg.
-pub(crate) fn bottle_and_heavy_ball() -> Result<Struck, Box<dyn Error>> {
+pub(crate) fn bottle_and_heavy_ball() -> Result<Struck> {
     let scene = subject("bottle", "", |_| {}, Vec::new())?;
     let steel = Material::preset("steel")?;
     let hit = &scene.contacts[0];
@@ -208,7 +208,7 @@ pub(crate) fn bottle_and_heavy_ball() -> Result<Struck, Box<dyn Error>> {
 }
 
 /// The drinking glass of the scene, which falls on its rim on stone.
-pub(crate) fn falling_glass() -> Result<Struck, Box<dyn Error>> {
+pub(crate) fn falling_glass() -> Result<Struck> {
     let scene = subject("glass", "", |_| {}, Vec::new())?;
     let hit = &scene.contacts[0];
     Ok(Struck {

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use frangible::{Asset, Material};
 use frangible_bake::{BakeSpec, bake_with};
 
-use crate::bench::error::BenchError;
+use crate::Result;
 use crate::bench::subjects::Geometry;
 
 /// Folder of baked bodies.
@@ -39,14 +39,14 @@ impl Cache {
         name: &str,
         modes: usize,
         material: &str,
-        geometry: impl FnOnce() -> Result<Geometry, BenchError>,
-        progress: &mut dyn FnMut(&str, f64),
-    ) -> Result<Baked, BenchError> {
+        geometry: impl FnOnce() -> Result<Geometry>,
+    ) -> Result<Baked> {
         let wrong = |path: &Path| {
-            let path = path.to_owned();
-            move |e: std::io::Error| BenchError::Cache {
-                path,
-                problem: e.to_string(),
+            let path = path.display().to_string();
+            move |e| {
+                format!(
+                    "`{path}` cannot be used for the baked bodies: {e}; choose another folder with --cache DIR"
+                )
             }
         };
         fs::create_dir_all(&self.folder).map_err(wrong(&self.folder))?;
@@ -66,7 +66,6 @@ impl Cache {
                 seconds,
             });
         }
-        progress(&format!("baking {name}"), 0.0);
         let (shape, analysis, fracture) = geometry()?;
         let spec = BakeSpec {
             modes,
@@ -74,9 +73,7 @@ impl Cache {
             fracture,
             ..BakeSpec::new(name, shape, material)
         };
-        let frangible_bake::Baked { asset, report } = bake_with(&spec, |p| {
-            progress(&format!("baking {name}: {}", p.stage), p.fraction);
-        })?;
+        let frangible_bake::Baked { asset, report } = bake_with(&spec, |_| {})?;
         let seconds = report.seconds.iter().map(|(_, s)| s).sum();
         asset.save(&path)?;
         fs::write(&beside, format!("{seconds}\n")).map_err(wrong(&beside))?;

@@ -12,9 +12,10 @@ use frangible::{
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use serde::Serialize;
+use serde_json::{Value, json};
 
+use crate::Result;
 use crate::bench::cache::Cache;
-use crate::bench::error::BenchError;
 use crate::bench::stats::{Spread, Times};
 use crate::bench::subjects::{MODES, PIG_GROWN, PIG_TETS, solid, steel_ball};
 
@@ -66,20 +67,6 @@ impl Class {
         Self::Cracked,
         Self::Breaks,
     ];
-
-    /// The class in words.
-    #[must_use]
-    pub const fn title(self) -> &'static str {
-        match self {
-            Self::Size => "refused by its size",
-            Self::Impulse => "refused by its impulse",
-            Self::Amplitudes => "refused by the amplitudes",
-            Self::Clusters => "refused by clusters",
-            Self::LookedAt => "looked at, holds",
-            Self::Cracked => "cracks, holds",
-            Self::Breaks => "breaks",
-        }
-    }
 }
 
 /// A class, timed.
@@ -93,37 +80,15 @@ pub struct Timed {
     pub latency: Spread,
 }
 
-/// Results of the benchmark.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Findings {
-    /// Tetrahedra of the body.
-    pub tets: usize,
-    /// Its nodes.
-    pub nodes: usize,
-    /// Its weak points.
-    pub weak_points: usize,
-    /// Its modes.
-    pub modes: usize,
-    /// Time for reading the clock, s: part of every latency.
-    pub clock: f64,
-    /// The game-like distribution.
-    pub game: Timed,
-    /// Share of each class in it.
-    pub game_shares: Vec<(Class, f64)>,
-    /// Each class by itself; one that was not met is left out.
-    pub classes: Vec<(Class, Timed)>,
-}
-
 /// Bakes the body, or reads it, and times the contacts.
 ///
 /// # Errors
 /// A body that does not bake, or whose file cannot be read.
-pub fn measure(cache: &Cache, progress: &mut dyn FnMut(&str, f64)) -> Result<Findings, BenchError> {
+pub fn measure(cache: &Cache) -> Result<Value> {
     let geometry = || Ok((solid("piggy_bank", PIG_GROWN, PIG_TETS)?, None, None));
-    let baked = cache.body("porcelain-pig", MODES, "porcelain", geometry, progress)?;
+    let baked = cache.body("porcelain-pig", MODES, "porcelain", geometry)?;
     let body = Breakable::uniform(baked.asset)?.body(1);
     let config = FractureConfig::default();
-    progress("game-like contacts", 0.0);
     let game = Source::new(&body, GAME_SPEEDS, 1)?.take(GAME);
     let mut game_counts = [0; Class::ALL.len()];
     for contact in &game {
@@ -131,12 +96,7 @@ pub fn measure(cache: &Cache, progress: &mut dyn FnMut(&str, f64)) -> Result<Fin
     }
     let game_timed = time(&body, &game, &config)?;
     let mut found: [Vec<Contact>; Class::ALL.len()] = Default::default();
-    for (i, contact) in Source::new(&body, ALL_SPEEDS, 2)?
-        .take(TRIED)
-        .iter()
-        .enumerate()
-    {
-        progress("finding contacts of each class", i as f64 / TRIED as f64);
+    for contact in &Source::new(&body, ALL_SPEEDS, 2)?.take(TRIED) {
         let kind = &mut found[class(&body, contact, &config)? as usize];
         if kind.len() < KEPT {
             kind.push(contact.clone());
@@ -144,33 +104,24 @@ pub fn measure(cache: &Cache, progress: &mut dyn FnMut(&str, f64)) -> Result<Fin
     }
     let mut classes = Vec::new();
     for (kind, contacts) in Class::ALL.into_iter().zip(&found) {
-        progress(kind.title(), kind as usize as f64 / Class::ALL.len() as f64);
         if !contacts.is_empty() {
-            classes.push((kind, time(&body, contacts, &config)?));
+            classes.push(json!({ "class": kind, "timed": time(&body, contacts, &config)? }));
         }
     }
+    let shares = Class::ALL.map(|kind| f64::from(game_counts[kind as usize]) / GAME as f64);
+    let shares = Class::ALL.into_iter().zip(shares);
     let asset = body.asset();
-    Ok(Findings {
-        tets: asset.fracture().tets.len(),
-        nodes: asset.fracture().positions.len(),
-        weak_points: body.weak_tets().len(),
-        modes: asset.modes().count(),
-        clock: clock_cost(),
-        game: game_timed,
-        game_shares: Class::ALL
-            .into_iter()
-            .map(|kind| (kind, f64::from(game_counts[kind as usize]) / GAME as f64))
-            .collect(),
-        classes,
-    })
+    Ok(json!({
+        "tets": asset.fracture().tets.len(),
+        "nodes": asset.fracture().positions.len(),
+        "weak_points": body.weak_tets().len(),
+        "modes": asset.modes().count(),
+        "clock_s": clock_cost(),
+        "game": game_timed,
+        "game_shares": shares.map(|(class, share)| json!({ "class": class, "share": share })).collect::<Vec<_>>(),
+        "classes": classes,
+    }))
 }
-
-/// The game-like distribution, in words.
-pub const GAME_DISTRIBUTION: &str = "one contact each, at a corner of a surface triangle drawn at random, along its inward \
-     normal tilted by up to 45° to any side, at speeds log-uniform between 0.01 and 0.3 m/s; one half steel balls of 20 to 220 g, \
-     one half flat stone that does not give way; the impulse that rigid bodies exchange, restitution 0.5";
-/// Speeds of the contacts for the classes, where they differ from the game-like distribution, in words.
-pub const CLASS_SPEEDS: &str = "0.01 to 6 m/s";
 
 /// Draws contacts.
 struct Source<'a> {
@@ -181,7 +132,7 @@ struct Source<'a> {
 }
 
 impl<'a> Source<'a> {
-    fn new(body: &'a Body, speeds: [f64; 2], seed: u64) -> Result<Self, BenchError> {
+    fn new(body: &'a Body, speeds: [f64; 2], seed: u64) -> Result<Self> {
         Ok(Self {
             asset: body.asset(),
             speeds,
@@ -199,7 +150,7 @@ impl<'a> Source<'a> {
         f64::from(self.rng.next_u32()) / (f64::from(u32::MAX) + 1.0)
     }
 
-    fn draw(&mut self) -> Result<Contact, BenchError> {
+    fn draw(&mut self) -> Result<Contact> {
         let surface = self.asset.surface();
         let triangle = (self.uniform() * surface.triangles.len() as f64) as usize;
         let corner = surface.triangles[triangle][0] as usize;
@@ -225,7 +176,7 @@ impl<'a> Source<'a> {
     }
 }
 
-fn class(body: &Body, contact: &Contact, config: &FractureConfig) -> Result<Class, BenchError> {
+fn class(body: &Body, contact: &Contact, config: &FractureConfig) -> Result<Class> {
     let outcome = impact(body, std::slice::from_ref(contact), config)?;
     let report = outcome.report();
     Ok(match (&outcome, report.looked_at) {
@@ -240,12 +191,12 @@ fn class(body: &Body, contact: &Contact, config: &FractureConfig) -> Result<Clas
 }
 
 /// Rate first, then single calls; `contacts` is not empty.
-fn time(body: &Body, contacts: &[Contact], config: &FractureConfig) -> Result<Timed, BenchError> {
+fn time(body: &Body, contacts: &[Contact], config: &FractureConfig) -> Result<Timed> {
     let clock = Instant::now();
     would_break(body, &contacts[..1], config)?;
     let fit = BUDGET / clock.elapsed().as_secs_f64();
     let contacts = &contacts[..contacts.len().min(FEWEST.max(fit as usize))];
-    let round = || -> Result<f64, BenchError> {
+    let round = || -> Result<f64> {
         let clock = Instant::now();
         for contact in contacts {
             std::hint::black_box(would_break(body, std::slice::from_ref(contact), config)?);

@@ -1,5 +1,6 @@
 //! The bodies of the gallery, each under the blow that breaks it first in its scene: whole breaks beside the project's goals.
 
+use std::collections::BTreeMap;
 use std::hint::black_box;
 use std::sync::Arc;
 use std::time::Instant;
@@ -7,34 +8,29 @@ use std::time::Instant;
 use frangible::internals::StageTimings;
 use frangible::{Body, Breakable, Contact, FractureConfig, Outcome, impact, would_break};
 use frangible_scenes::{FirstBreak, bake, breakable, first_break, scene};
-use serde::Serialize;
+use serde_json::{Value, json};
 
-use crate::bench::error::BenchError;
+use crate::Result;
 use crate::bench::stats::Times;
 
-/// A scene, and the goal of the whole break, s: solids that shatter have a longer one.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Subject {
-    /// Name of the scene.
-    pub scene: &'static str,
-    /// Goal of the whole break, s.
-    pub goal: f64,
-}
-
+/// Goal of a whole break, s: solids that shatter have a longer one.
 const WALL: f64 = 0.020;
 const SOLID: f64 = 0.050;
 
+/// A scene, and the goal of its break, s.
+pub type Subject = (&'static str, f64);
+
 /// The scenes, in the order of the table.
 pub const SUBJECTS: [Subject; 9] = [
-    subject("glass", WALL),
-    subject("pane", WALL),
-    subject("plate", WALL),
-    subject("bowl", WALL),
-    subject("chocolate", WALL),
-    subject("piggy-bank", SOLID),
-    subject("brick", SOLID),
-    subject("rabbit", SOLID),
-    subject("hammer", SOLID),
+    ("glass", WALL),
+    ("pane", WALL),
+    ("plate", WALL),
+    ("bowl", WALL),
+    ("chocolate", WALL),
+    ("piggy-bank", SOLID),
+    ("brick", SOLID),
+    ("rabbit", SOLID),
+    ("hammer", SOLID),
 ];
 
 /// Body for the questions whether it would break.
@@ -49,83 +45,19 @@ const SEEDS: u64 = 20;
 /// Number of speeds of each range.
 const SPEEDS: usize = 8;
 
-const fn subject(scene: &'static str, goal: f64) -> Subject {
-    Subject { scene, goal }
-}
-
-/// Measurements of a body.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Row {
-    /// Name of the scene.
-    pub scene: String,
-    /// Weak points.
-    pub points: usize,
-    /// Modes that the break follows.
-    pub modes: usize,
-    /// Time steps.
-    pub steps: usize,
-    /// Cracks that started.
-    pub cracks: usize,
-    /// Tetrahedra that cracks cut.
-    pub cut: usize,
-    /// Pieces.
-    pub pieces: usize,
-    /// Warm runs.
-    pub runs: usize,
-    /// The first break of a body just made from its file, s.
-    pub cold: f64,
-    /// The first break of a body that was made ready for blows, as a game does while it loads, s.
-    pub first: f64,
-    /// The median of the breaks that follow, s.
-    pub whole: f64,
-    /// Its goal, s.
-    pub goal: f64,
-    /// Medians of response, stress, cracks, labels, fragments, drawing, s.
-    pub stages: [f64; 6],
-}
-
-/// Times of questions.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Asked {
-    /// Speeds from and to, m/s.
-    pub speeds: [f64; 2],
-    /// Questions.
-    pub questions: usize,
-    /// Number of questions with the answer yes.
-    pub breaks: usize,
-    /// Median, s.
-    pub median: f64,
-    /// The longest, s.
-    pub longest: f64,
-    /// The goal of the median, s.
-    pub goal: f64,
-}
-
-/// All measurements.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Findings {
-    /// A row for each body.
-    pub rows: Vec<Row>,
-    /// Questions about the glass; none where it was not chosen.
-    pub asked: Vec<Asked>,
-}
-
 /// The scenes of these names, all of them where there are none.
 ///
 /// # Errors
 /// A name that is no scene of the table.
-pub fn chosen(names: &[String]) -> Result<Vec<Subject>, BenchError> {
+pub fn chosen(names: &[String]) -> Result<Vec<Subject>> {
     if names.is_empty() {
         return Ok(SUBJECTS.to_vec());
     }
     let find = |name: &String| {
-        let known = SUBJECTS.iter().find(|s| s.scene == name);
-        known.copied().ok_or_else(|| {
-            let known: Vec<&str> = SUBJECTS.iter().map(|s| s.scene).collect();
-            BenchError::NotAsMeant(format!(
-                "`{name}` is not a body of the gallery's table; the bodies are {}",
-                known.join(", ")
-            ))
+        let known = SUBJECTS.iter().find(|s| s.0 == name).copied();
+        let names = SUBJECTS.map(|s| s.0).join(", ");
+        known.ok_or_else(|| {
+            format!("`{name}` is not a body of the gallery's table; the bodies are {names}").into()
         })
     };
     names.iter().map(find).collect()
@@ -135,23 +67,18 @@ pub fn chosen(names: &[String]) -> Result<Vec<Subject>, BenchError> {
 ///
 /// # Errors
 /// A scene that cannot be baked or played, or in which nothing breaks.
-pub fn measure(
-    subjects: &[Subject],
-    runs: usize,
-    progress: &mut dyn FnMut(&str, f64),
-) -> Result<Findings, BenchError> {
+pub fn measure(subjects: &[Subject], runs: usize) -> Result<Value> {
     let (mut rows, mut asked) = (Vec::new(), Vec::new());
-    for (i, subject) in subjects.iter().enumerate() {
-        progress(subject.scene, i as f64 / subjects.len() as f64);
-        let found = Blow::of(subject.scene)?;
-        rows.push(found.row(*subject, runs.max(1))?);
-        if subject.scene == ASKED {
+    for &(scene, goal) in subjects {
+        let found = Blow::of(scene)?;
+        rows.push(found.row(scene, goal, runs.max(1))?);
+        if scene == ASKED {
             for (speeds, goal) in QUESTIONS {
                 asked.push(found.questions(speeds, goal)?);
             }
         }
     }
-    Ok(Findings { rows, asked })
+    Ok(json!({ "breaks": rows, "questions": asked }))
 }
 
 /// The first blow of a scene that breaks something.
@@ -162,11 +89,11 @@ struct Blow {
 }
 
 impl Blow {
-    fn of(name: &str) -> Result<Self, BenchError> {
+    fn of(name: &str) -> Result<Self> {
         let scene = scene(name)?;
         let baked = bake(&scene)?;
         let first = first_break(&scene, &baked, &mut |_| {})?;
-        let nothing = || BenchError::NotAsMeant(format!("nothing breaks in the scene `{name}`"));
+        let nothing = || crate::Error::from(format!("nothing breaks in the scene `{name}`"));
         let first = first.ok_or_else(nothing)?;
         let spec = scene.bodies.iter().find(|body| body.name == first.name);
         let spec = spec.ok_or_else(nothing)?;
@@ -175,7 +102,7 @@ impl Blow {
         Ok(Self { first, breakables })
     }
 
-    fn row(&self, subject: Subject, runs: usize) -> Result<Row, BenchError> {
+    fn row(&self, scene: &str, goal: f64, runs: usize) -> Result<Value> {
         let FirstBreak {
             body,
             contacts,
@@ -200,27 +127,30 @@ impl Blow {
             Some(Outcome::Broke(fracture)) => fracture.fragments.len(),
             _ => 1,
         };
-        let report = last.as_ref().map(Outcome::report);
-        let stages: Vec<f64> = stages.into_iter().map(|s| Times::new(s).median()).collect();
-        Ok(Row {
-            scene: subject.scene.into(),
-            points: report.map_or(0, |r| r.weak_points),
-            modes: new.asset().modes().followed(),
-            steps: report.map_or(0, |r| r.time_steps),
-            cracks: report.map_or(0, |r| r.cracks),
-            cut: report.map_or(0, |r| r.arrivals.iter().map(Vec::len).sum()),
-            pieces,
-            runs,
-            cold,
-            first,
-            whole: Times::new(whole).median(),
-            goal: subject.goal,
-            stages: std::array::from_fn(|i| stages[i]),
-        })
+        let report = last.as_ref().map(Outcome::report).ok_or("no run")?;
+        let stages = STAGES
+            .iter()
+            .zip(stages)
+            .map(|(name, s)| (*name, Times::new(s).median()));
+        Ok(json!({
+            "scene": scene,
+            "weak_points": report.weak_points,
+            "modes": new.asset().modes().followed(),
+            "steps": report.time_steps,
+            "cracks": report.cracks,
+            "cut": report.arrivals.iter().map(Vec::len).sum::<usize>(),
+            "pieces": pieces,
+            "runs": runs,
+            "cold_s": cold,
+            "first_s": first,
+            "whole_s": Times::new(whole).median(),
+            "goal_s": goal,
+            "stages_s": stages.collect::<BTreeMap<_, _>>(),
+        }))
     }
 
     /// Asks bodies of other seeds if the blow would break them at other speeds.
-    fn questions(&self, [from, to]: [f64; 2], goal: f64) -> Result<Asked, BenchError> {
+    fn questions(&self, [from, to]: [f64; 2], goal: f64) -> Result<Value> {
         let contacts = &self.first.contacts;
         let fastest = contacts.iter().map(|c| f64::from(c.approach_speed));
         let fastest = fastest.fold(f64::MIN_POSITIVE, f64::max);
@@ -245,26 +175,25 @@ impl Blow {
             }
         }
         let times = Times::new(times);
-        Ok(Asked {
-            speeds: [from, to],
-            questions: times.count(),
-            breaks,
-            median: times.median(),
-            longest: times.quantile(1.0),
-            goal,
-        })
+        Ok(json!({
+            "speeds_m_s": [from, to],
+            "questions": times.count(),
+            "breaks": breaks,
+            "median_s": times.median(),
+            "longest_s": times.quantile(1.0),
+            "goal_s": goal,
+        }))
     }
 }
 
-fn timed(
-    body: &Body,
-    contacts: &[Contact],
-    config: &FractureConfig,
-) -> Result<(f64, Outcome), BenchError> {
+fn timed(body: &Body, contacts: &[Contact], config: &FractureConfig) -> Result<(f64, Outcome)> {
     let start = Instant::now();
     let outcome = impact(body, black_box(contacts), config)?;
     Ok((start.elapsed().as_secs_f64(), outcome))
 }
+
+/// Stages of a break, in the order of [`by_stage`].
+const STAGES: [&str; 6] = ["blow", "stress", "cracks", "labels", "fragments", "drawing"];
 
 fn by_stage(timings: &StageTimings) -> [f64; 6] {
     let t = timings;

@@ -1,4 +1,4 @@
-//! Single stages on a small body: the same work for `cargo bench` and for counting instructions.
+//! Single stages on a small body, for counting instructions.
 
 use std::hint::black_box;
 
@@ -14,7 +14,7 @@ use frangible::{
 };
 use frangible_bake::{BakeSpec, MeshSize, Shape, bake};
 
-use crate::bench::error::BenchError;
+use crate::Result;
 use crate::bench::subjects::steel_ball;
 
 /// Speed of the ball for each [`Depth`], m/s.
@@ -41,7 +41,7 @@ pub enum Depth {
 ///
 /// # Errors
 /// None to be expected.
-pub fn small_body() -> Result<Asset, BenchError> {
+pub fn small_body() -> Result<Asset> {
     let shape = Shape::plate(0.3, 0.2, 0.006);
     let spec = BakeSpec {
         modes: 40,
@@ -79,13 +79,13 @@ impl Bench {
     ///
     /// # Errors
     /// An asset that the run time refuses.
-    pub fn new(asset: Asset) -> Result<Self, BenchError> {
+    pub fn new(asset: Asset) -> Result<Self> {
         let body = Breakable::uniform(asset)?.body(1);
         let ours = FractureConfig::with_given_impulses();
         let paper = FractureConfig::as_in_the_paper();
         let hit = |speed: f64| {
             let at = Vec3::new(0.04, 0.02, 0.003);
-            Ok::<_, BenchError>(Contact::collision(
+            Ok::<_, crate::Error>(Contact::collision(
                 body.asset(),
                 at,
                 Vec3::NEG_Z,
@@ -119,7 +119,7 @@ impl Bench {
     ///
     /// # Errors
     /// The first that does not: its speed wants to be chosen anew.
-    pub fn check(&self) -> Result<(), BenchError> {
+    pub fn check(&self) -> Result<()> {
         use Depth::{Amplitudes, Break, Impulse, Stresses};
         for depth in [Impulse, Amplitudes, Stresses, Break] {
             let outcome = impact(&self.body, &[self.blow(depth)], &self.ours)?;
@@ -130,7 +130,7 @@ impl Bench {
                 _ => Stresses,
             };
             if came_to != depth {
-                return Err(BenchError::NotAsMeant(format!(
+                return Err(crate::Error::from(format!(
                     "the blow for {depth:?} came to {came_to:?}; change its speed in stages.rs"
                 )));
             }

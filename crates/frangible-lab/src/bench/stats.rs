@@ -48,11 +48,11 @@ impl Times {
     pub fn spread(&self) -> Spread {
         Spread {
             calls: self.count(),
-            mean: self.sum() / self.count().max(1) as f64,
-            p50: self.median(),
-            p99: self.quantile(0.99),
-            p999: self.quantile(0.999),
-            max: self.quantile(1.0),
+            mean_s: self.sum() / self.count().max(1) as f64,
+            p50_s: self.median(),
+            p99_s: self.quantile(0.99),
+            p999_s: self.quantile(0.999),
+            max_s: self.quantile(1.0),
         }
     }
 }
@@ -63,15 +63,15 @@ pub struct Spread {
     /// Number of calls.
     pub calls: usize,
     /// Mean.
-    pub mean: f64,
+    pub mean_s: f64,
     /// Median.
-    pub p50: f64,
+    pub p50_s: f64,
     /// 99 of 100 took no longer.
-    pub p99: f64,
+    pub p99_s: f64,
     /// 999 of 1000 took no longer.
-    pub p999: f64,
+    pub p999_s: f64,
     /// The longest.
-    pub max: f64,
+    pub max_s: f64,
 }
 
 #[cfg(test)]
@@ -86,8 +86,8 @@ mod tests {
         assert_eq!(times.quantile(0.999), 999.0);
         assert_eq!(times.quantile(1.0), 1000.0);
         assert_eq!(times.quantile(0.0), 1.0);
-        assert_eq!(times.spread().mean, 500.5);
+        assert_eq!(times.spread().mean_s, 500.5);
         assert_eq!(Times::new(vec![3.0]).quantile(0.999), 3.0);
-        assert_eq!(Times::default().spread().max, 0.0);
+        assert_eq!(Times::default().spread().max_s, 0.0);
     }
 }

@@ -8,7 +8,7 @@ use frangible_bake::{MeshSize, Shape, SolidShape, TetShape};
 use frangible_mesh::ready_shape;
 use serde::Serialize;
 
-use crate::bench::error::BenchError;
+use crate::Result;
 use crate::bench::grid;
 
 /// Modes of every body, as in the paper.
@@ -29,7 +29,7 @@ pub(crate) const PIG_TETS: usize = 21_460;
 pub(crate) const PIG_GROWN: f64 = 3e-4;
 
 /// Shape, analysis mesh, fracture mesh.
-pub(crate) type Geometry = (Shape, Option<MeshSize>, Option<MeshSize>);
+pub type Geometry = (Shape, Option<MeshSize>, Option<MeshSize>);
 
 /// A line of Table 1: one thread of a 2.3 GHz Core2, initiation also on a Quadro FX 3700M.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -39,27 +39,13 @@ pub struct Paper {
     /// Its tetrahedra.
     pub tets: usize,
     /// Initiation on the processor, ms.
-    pub initiation_cpu: f64,
+    pub initiation_cpu_ms: f64,
     /// Initiation on the graphics card, ms.
-    pub initiation_gpu: f64,
+    pub initiation_gpu_ms: f64,
     /// Propagation, ms.
-    pub propagation: f64,
+    pub propagation_ms: f64,
     /// Fragments, ms.
-    pub fragments: f64,
-}
-
-impl Paper {
-    /// Total with initiation on the processor, ms.
-    #[must_use]
-    pub fn cpu(&self) -> f64 {
-        self.initiation_cpu + self.propagation + self.fragments
-    }
-
-    /// Total with initiation on the graphics card, ms: the paper's column "total", but for its rounding.
-    #[must_use]
-    pub fn gpu(&self) -> f64 {
-        self.initiation_gpu + self.propagation + self.fragments
-    }
+    pub fragments_ms: f64,
 }
 
 /// A blow, which the paper does not describe.
@@ -84,8 +70,6 @@ pub struct Subject {
     pub name: &'static str,
     /// Preset with the paper's parameters.
     pub material: &'static str,
-    /// Description of the body and the blow, in words.
-    pub about: &'static str,
     /// The paper's line.
     pub paper: Paper,
     /// The blow.
@@ -99,7 +83,6 @@ pub const SUBJECTS: [Subject; 8] = [
     Subject {
         name: "glass",
         material: "paper-glass",
-        about: "drinking glass 105 mm high, steel ball of 60 g at the rim",
         paper: paper(7_912, 24_410, [34.0, 3.5, 5.1, 1.3]),
         blow: Blow {
             at: [1.0, 0.5, 0.98],
@@ -112,14 +95,12 @@ pub const SUBJECTS: [Subject; 8] = [
     Subject {
         name: "pig",
         material: "paper-piggy",
-        about: "piggy bank 151 mm long, steel ball of 130 g on its back",
         paper: paper(5_992, 20_777, [66.0, 8.3, 6.6, 6.0]),
         blow: PIG,
     },
     Subject {
         name: "pig-harder",
         material: "paper-piggy",
-        about: "the same, hit harder (the paper's Fig. 4)",
         paper: paper(5_992, 20_777, [150.0, 15.0, 12.3, 6.4]),
         blow: Blow {
             speed: 48.0,
@@ -127,38 +108,29 @@ pub const SUBJECTS: [Subject; 8] = [
             ..PIG
         },
     },
-    Subject {
-        name: "slab-low",
-        material: "paper-slab-low",
-        about: "slab 100 × 100 × 5 mm, 14 × 13 × 2 cells, steel ball of 130 g beside its middle",
-        paper: paper(644, 1_740, [12.0, 1.7, 0.8, 0.6]),
-        blow: SLAB_BLOW,
-    },
-    Subject {
-        name: "slab-moderate",
-        material: "paper-slab",
-        about: "the same, 29 × 29 × 2 cells",
-        paper: paper(2_761, 8_190, [17.0, 3.9, 2.4, 0.37]),
-        blow: SLAB_BLOW,
-    },
-    Subject {
-        name: "slab-high",
-        material: "paper-slab-high",
-        about: "the same, 64 × 63 × 2 cells",
-        paper: paper(12_017, 39_901, [25.0, 7.0, 6.0, 17.0]),
-        blow: SLAB_BLOW,
-    },
-    Subject {
-        name: "slab-very-high",
-        material: "paper-slab-very-high",
-        about: "the same, 131 × 131 × 2 cells",
-        paper: paper(50_476, 175_095, [26.0, 7.0, 25.0, 21.0]),
-        blow: SLAB_BLOW,
-    },
+    slab(
+        "slab-low",
+        "paper-slab-low",
+        paper(644, 1_740, [12.0, 1.7, 0.8, 0.6]),
+    ),
+    slab(
+        "slab-moderate",
+        "paper-slab",
+        paper(2_761, 8_190, [17.0, 3.9, 2.4, 0.37]),
+    ),
+    slab(
+        "slab-high",
+        "paper-slab-high",
+        paper(12_017, 39_901, [25.0, 7.0, 6.0, 17.0]),
+    ),
+    slab(
+        "slab-very-high",
+        "paper-slab-very-high",
+        paper(50_476, 175_095, [26.0, 7.0, 25.0, 21.0]),
+    ),
     Subject {
         name: "rabbit",
         material: "paper-rabbit",
-        about: "sitting rabbit 148 mm tall, solid, thrown on its back against stone",
         paper: paper(5_089, 18_767, [42.0, 3.2, 6.0, 7.0]),
         blow: Blow {
             at: [0.5, 1.0, 0.35],
@@ -186,14 +158,23 @@ const SLAB_BLOW: Blow = Blow {
     ball: Some(0.13),
 };
 
+const fn slab(name: &'static str, material: &'static str, paper: Paper) -> Subject {
+    Subject {
+        name,
+        material,
+        paper,
+        blow: SLAB_BLOW,
+    }
+}
+
 const fn paper(nodes: usize, tets: usize, ms: [f64; 4]) -> Paper {
     Paper {
         nodes,
         tets,
-        initiation_cpu: ms[0],
-        initiation_gpu: ms[1],
-        propagation: ms[2],
-        fragments: ms[3],
+        initiation_cpu_ms: ms[0],
+        initiation_gpu_ms: ms[1],
+        propagation_ms: ms[2],
+        fragments_ms: ms[3],
     }
 }
 
@@ -201,15 +182,11 @@ const fn paper(nodes: usize, tets: usize, ms: [f64; 4]) -> Paper {
 ///
 /// # Errors
 /// A name that is none of theirs.
-pub fn chosen(names: &[String]) -> Result<Vec<&'static Subject>, BenchError> {
+pub fn chosen(names: &[String]) -> Result<Vec<&'static Subject>> {
     let known = |name: &String| {
-        SUBJECTS
-            .iter()
-            .find(|s| s.name == name)
-            .ok_or_else(|| BenchError::UnknownBody {
-                name: name.clone(),
-                known: SUBJECTS.map(|s| s.name).join(", "),
-            })
+        let known = SUBJECTS.iter().find(|s| s.name == name);
+        let names = SUBJECTS.map(|s| s.name).join(", ");
+        known.ok_or_else(|| format!("there is no body `{name}`; the bodies are {names}").into())
     };
     if names.is_empty() {
         return Ok(SUBJECTS.iter().collect());
@@ -220,7 +197,10 @@ pub fn chosen(names: &[String]) -> Result<Vec<&'static Subject>, BenchError> {
 impl Subject {
     /// Shape, elements of the analysis mesh and of the fracture mesh; `None` where the bake's default serves or the shape has
     /// its own.
-    pub(crate) fn geometry(&self) -> Result<Geometry, BenchError> {
+    ///
+    /// # Errors
+    /// A body that cannot be meshed.
+    pub fn geometry(&self) -> Result<Geometry> {
         let slab = |x, y| {
             let body = grid::slab(SLAB, [x, y, 2]);
             // As the bake counts the elements that cover a body: 12.6 per cube.
@@ -259,7 +239,7 @@ impl Subject {
     ///
     /// # Errors
     /// None but a preset that is missing.
-    pub fn contact(&self, asset: &Asset, speed: f64) -> Result<Contact, BenchError> {
+    pub fn contact(&self, asset: &Asset, speed: f64) -> Result<Contact> {
         let (low, high) = asset
             .fracture()
             .positions
@@ -283,11 +263,9 @@ impl Subject {
 }
 
 /// A ready solid, grown by so much to all sides, m, in about so many tetrahedra.
-pub(crate) fn solid(name: &str, grown: f64, tets: usize) -> Result<Shape, BenchError> {
+pub(crate) fn solid(name: &str, grown: f64, tets: usize) -> Result<Shape> {
     let Some(solid) = ready_shape(name) else {
-        return Err(BenchError::NotAsMeant(format!(
-            "there is no solid `{name}`"
-        )));
+        return Err(crate::Error::from(format!("there is no solid `{name}`")));
     };
     let mut shape = SolidShape::new(Arc::new(solid.grown(grown)));
     shape.tets = tets;
@@ -298,7 +276,7 @@ pub(crate) fn solid(name: &str, grown: f64, tets: usize) -> Result<Shape, BenchE
 ///
 /// # Errors
 /// None but a preset that is missing.
-pub fn steel_ball(mass: f64) -> Result<Striker, BenchError> {
+pub fn steel_ball(mass: f64) -> Result<Striker> {
     let steel = Material::preset("steel")?;
     let radius = (0.75 * mass / steel.density / std::f64::consts::PI).cbrt();
     Ok(Striker::ball(&steel, mass, radius).with_restitution(0.5))

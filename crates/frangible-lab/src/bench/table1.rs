@@ -1,15 +1,16 @@
 //! Table 1 of `[G12]`, measured.
 
+use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 use crate::reference::{Field, Options as Reading, fracture};
 use frangible::internals::impact_traced;
-use frangible::{Asset, Body, Breakable, Contact, FractureConfig, ImpactReport, Outcome, impact};
+use frangible::{Asset, Body, Breakable, Contact, FractureConfig, Outcome, impact};
 use frangible_rapier::{WorldConfig, collision_shape};
-use serde::Serialize;
+use serde_json::{Value, json};
 
+use crate::Result;
 use crate::bench::cache::{Baked, Cache};
-use crate::bench::error::BenchError;
 use crate::bench::stats::Times;
 use crate::bench::subjects::{MODES, Subject};
 
@@ -34,117 +35,19 @@ pub struct Options {
     pub reference: bool,
 }
 
-/// Wall-clock times of an impact, s: medians of equal runs, each for itself.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Stages {
-    /// Contact duration, response of the modes.
-    pub response: f64,
-    /// Displacements u = Φ q.
-    pub displacements: f64,
-    /// Stresses at weak points, cracks.
-    pub cracks: f64,
-    /// Fragments.
-    pub fragments: f64,
-    /// The whole call.
-    pub total: f64,
-    /// Number of runs.
-    pub runs: usize,
-}
-
-impl Stages {
-    /// The stage that takes longest.
-    #[must_use]
-    pub fn longest(&self) -> &'static str {
-        let stages = [
-            ("response", self.response),
-            ("displacements", self.displacements),
-            ("stresses and cracks", self.cracks),
-            ("fragments", self.fragments),
-        ];
-        let longest = stages.into_iter().max_by(|a, b| a.1.total_cmp(&b.1));
-        longest.map_or("", |(name, _)| name)
-    }
-}
-
-/// A body in one model.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct InModel {
-    /// The body, its contact and its code in the processor's caches.
-    pub warm: Stages,
-    /// The first impact on a body just read from its file, caches swept.
-    pub cold: Stages,
-    /// Making the colliders of all fragments, s.
-    pub colliders: f64,
-    /// The paper's algorithms word for word in f64, without fragments' surfaces, one run, s.
-    pub reference: Option<f64>,
-    /// Steps in time.
-    pub steps: usize,
-    /// Contact duration, s.
-    pub contact_duration: f64,
-    /// Tetrahedra crossed by cracks.
-    pub crossed: usize,
-    /// Cracks.
-    pub cracks: usize,
-    /// Area of the cracks, m².
-    pub crack_area: f64,
-    /// Fragments; 1 where it holds.
-    pub fragments: usize,
-}
-
-/// A line of the table.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Row {
-    /// Body, with the paper's figures.
-    pub subject: Subject,
-    /// Nodes of the fracture mesh.
-    pub nodes: usize,
-    /// Its tetrahedra.
-    pub tets: usize,
-    /// Quadratic elements that carry the modes.
-    pub analysis_elements: usize,
-    /// Their nodes.
-    pub analysis_nodes: usize,
-    /// Modes.
-    pub modes: usize,
-    /// Weak points.
-    pub weak_points: usize,
-    /// Size of the baked file, bytes.
-    pub file_size: u64,
-    /// The bake, s.
-    pub bake: f64,
-    /// Reading and checking the file, s.
-    pub load: f64,
-    /// Time from the file's content to a body, s.
-    pub ready: f64,
-    /// Results in the paper's model, at 16 samples per period.
-    pub paper: InModel,
-    /// Results in the paper's model, at two samples per period of the highest mode that matters: the limit that the paper names.
-    pub two_samples: InModel,
-    /// Our model.
-    pub ours: InModel,
-}
-
 /// Measures one body.
 ///
 /// # Errors
 /// A body that does not bake, or whose file cannot be read.
-pub fn measure(
-    subject: &'static Subject,
-    cache: &Cache,
-    options: &Options,
-    progress: &mut dyn FnMut(&str, f64),
-) -> Result<Row, BenchError> {
+pub fn measure(subject: &'static Subject, cache: &Cache, options: &Options) -> Result<Value> {
     let geometry = || subject.geometry();
-    let baked = cache.body(subject.file(), MODES, subject.material, geometry, progress)?;
+    let baked = cache.body(subject.file(), MODES, subject.material, geometry)?;
     let contact = subject.contact(&baked.asset, subject.blow.speed)?;
     let body = Breakable::uniform(baked.asset.clone())?.body(SEED);
     let mut loads = Loads::default();
-    let mut tell = |what: &str, share: f64| progress(&format!("{}: {what}", subject.name), share);
-    tell("the paper's model", 0.0);
     let mut config = FractureConfig::as_in_the_paper();
     let mut paper = in_model(&body, &contact, &config, &baked, options, &mut loads)?;
     if options.reference {
-        tell("the paper word for word", 0.3);
         let clock = Instant::now();
         fracture(
             &body,
@@ -152,31 +55,30 @@ pub fn measure(
             Field::Embedded,
             &Reading::default(),
         )?;
-        paper.reference = Some(clock.elapsed().as_secs_f64());
+        paper["reference_s"] = json!(clock.elapsed().as_secs_f64());
     }
     config.samples_per_period = 2.0;
     let two_samples = in_model(&body, &contact, &config, &baked, options, &mut loads)?;
-    tell("our model", 0.6);
     let contact = subject.contact(&baked.asset, subject.blow.speed_ours)?;
     let config = FractureConfig::default();
     let ours = in_model(&body, &contact, &config, &baked, options, &mut loads)?;
     let asset = &baked.asset;
-    Ok(Row {
-        subject: *subject,
-        nodes: asset.fracture().positions.len(),
-        tets: asset.fracture().tets.len(),
-        analysis_elements: asset.analysis().elements.len(),
-        analysis_nodes: asset.analysis().nodes.len(),
-        modes: asset.modes().count(),
-        weak_points: body.weak_tets().len(),
-        file_size: std::fs::metadata(&baked.path).map_or(0, |about| about.len()),
-        bake: baked.seconds,
-        load: Times::new(loads.load).median(),
-        ready: Times::new(loads.ready).median(),
-        paper,
-        two_samples,
-        ours,
-    })
+    Ok(json!({
+        "subject": subject,
+        "nodes": asset.fracture().positions.len(),
+        "tets": asset.fracture().tets.len(),
+        "analysis_elements": asset.analysis().elements.len(),
+        "analysis_nodes": asset.analysis().nodes.len(),
+        "modes": asset.modes().count(),
+        "weak_points": body.weak_tets().len(),
+        "file_bytes": std::fs::metadata(&baked.path).map_or(0, |about| about.len()),
+        "bake_s": baked.seconds,
+        "load_s": Times::new(loads.load).median(),
+        "ready_s": Times::new(loads.ready).median(),
+        "paper": paper,
+        "two_samples": two_samples,
+        "ours": ours,
+    }))
 }
 
 /// Times of reading a body, s.
@@ -193,7 +95,7 @@ fn in_model(
     baked: &Baked,
     options: &Options,
     loads: &mut Loads,
-) -> Result<InModel, BenchError> {
+) -> Result<Value> {
     let contacts = [contact.clone()];
     let mut cold = Vec::new();
     for _ in 0..COLD_RUNS.min(options.runs) {
@@ -218,57 +120,50 @@ fn in_model(
     }
     let (outcome, trace) = impact_traced(body, &contacts, config)?;
     let report = outcome.report();
-    Ok(InModel {
-        warm: medians(&warm),
-        cold: medians(&cold),
-        colliders: Times::new(colliders).median(),
-        reference: None,
-        steps: report.time_steps,
-        contact_duration: report.contact_duration,
-        crossed: trace.cracks.iter().map(Vec::len).sum(),
-        cracks: report.cracks,
-        crack_area: report.crack_area,
-        fragments: match &outcome {
+    Ok(json!({
+        "warm_s": medians(&warm),
+        "cold_s": medians(&cold),
+        "warm_runs": warm.len(),
+        "colliders_s": Times::new(colliders).median(),
+        "steps": report.time_steps,
+        "contact_duration_s": report.contact_duration,
+        "crossed": trace.cracks.iter().map(Vec::len).sum::<usize>(),
+        "cracks": report.cracks,
+        "crack_area_m2": report.crack_area,
+        "fragments": match &outcome {
             Outcome::Broke(fracture) => fracture.fragments.len(),
             _ => 1,
         },
-    })
+    }))
 }
 
+/// Stages of an impact, in the order of [`timed`]; `stresses` are the displacements u = Φ q.
+const STAGES: [&str; 5] = ["response", "stresses", "cracks", "fragments", "total"];
+
+/// Wall-clock times of an impact, s.
 fn timed(
     body: &Body,
     contacts: &[Contact],
     config: &FractureConfig,
-) -> Result<(Stages, Outcome), BenchError> {
+) -> Result<([f64; 5], Outcome)> {
     let clock = Instant::now();
     let outcome = impact(body, contacts, config)?;
     let total = clock.elapsed().as_secs_f64();
-    Ok((stages(outcome.report(), total), outcome))
-}
-
-fn stages(report: &ImpactReport, total: f64) -> Stages {
-    let t = &report.timings;
-    Stages {
-        response: t.response,
-        displacements: t.stress,
-        cracks: t.cracks,
-        fragments: t.fragments,
-        total,
-        runs: 1,
-    }
+    let t = &outcome.report().timings;
+    Ok((
+        [t.response, t.stress, t.cracks, t.fragments, total],
+        outcome,
+    ))
 }
 
 /// Medians of the stages, each for itself: they need not sum to the median of the whole.
-fn medians(runs: &[Stages]) -> Stages {
-    let median = |part: fn(&Stages) -> f64| Times::new(runs.iter().map(part).collect()).median();
-    Stages {
-        response: median(|s| s.response),
-        displacements: median(|s| s.displacements),
-        cracks: median(|s| s.cracks),
-        fragments: median(|s| s.fragments),
-        total: median(|s| s.total),
-        runs: runs.len(),
-    }
+fn medians(runs: &[[f64; 5]]) -> BTreeMap<&'static str, f64> {
+    let median = |i: usize| Times::new(runs.iter().map(|run| run[i]).collect()).median();
+    STAGES
+        .iter()
+        .enumerate()
+        .map(|(i, name)| (*name, median(i)))
+        .collect()
 }
 
 /// Time for making the fragments' colliders, s, which a world does before they move.

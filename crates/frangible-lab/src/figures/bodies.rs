@@ -6,7 +6,7 @@ use frangible::glam::Vec3;
 use frangible::{Asset, Contact, Material, Striker};
 use frangible_bake::{BakeSpec, Shape, bake};
 
-use crate::figures::FigureError;
+use crate::Result;
 
 /// Modes of a body, as in the paper (its Table 1).
 pub(crate) const MODES: usize = 100;
@@ -15,17 +15,17 @@ pub(crate) const MODES: usize = 100;
 pub(crate) const SLAB: [f64; 3] = [0.3, 0.3, 0.006];
 
 /// Mass, kg, radius, m, and speed, m/s, of the steel ball that hits the slab: R_c of the paper's slab is 1 GPa.
-pub(crate) const SLAB_BALL: [f64; 3] = [0.13, 0.0158, 80.0];
+const SLAB_BALL: [f64; 3] = [0.13, 0.0158, 80.0];
 
 /// Weak points of the slab, 1/m³. The paper gives no number; that of real glass, 4e7, makes every other tetrahedron weak, and
 /// in its model, where no crack relieves another, each of them cracks.
-pub(crate) const SLAB_WEAK_POINTS: f64 = 3e5;
+const SLAB_WEAK_POINTS: f64 = 3e5;
 /// Fracture energy G_c of the slab of Figs. 7 and 12 that γ belongs to, J/m².
 const SLAB_TOUGHNESS: f64 = 90.0;
 
 /// The paper's slab, between its "moderate" and its "high" in fineness; elements of the modes are about 16 mm
 /// long, the hundredth mode's half waves 27 mm.
-pub(crate) fn slab() -> Result<Arc<Asset>, FigureError> {
+pub(crate) fn slab() -> Result<Arc<Asset>> {
     let [width, depth, thickness] = SLAB;
     let shape = Shape::plate(width, depth, thickness);
     let spec = BakeSpec {
@@ -42,7 +42,7 @@ pub(crate) fn slab() -> Result<Arc<Asset>, FigureError> {
 }
 
 /// The slab's blow: a steel ball in the middle of its upper face.
-pub(crate) fn slab_blow(slab: &Asset) -> Result<Contact, FigureError> {
+pub(crate) fn slab_blow(slab: &Asset) -> Result<Contact> {
     let [mass, radius, speed] = SLAB_BALL;
     let steel = Material::preset("steel")?;
     let point = Vec3::Z * (0.5 * SLAB[2] as f32);
@@ -57,7 +57,7 @@ pub(crate) fn baked(
     material: &str,
     tets: f64,
     modes: usize,
-) -> Result<Arc<Asset>, FigureError> {
+) -> Result<Arc<Asset>> {
     let spec = BakeSpec {
         modes,
         fracture: Some(shape.size_for(tets)?),
@@ -66,30 +66,13 @@ pub(crate) fn baked(
     Ok(Arc::new(bake(&spec)?))
 }
 
-/// The body with other numbers of its material. Not for those that are in the modes: E, ν, ρ.
 /// Energy depth γ of the slab of Figs. 7 and 12, m, which the paper does not give. With this one the strain energy at R_c just pays for
 /// a crack of 90 J/m²; with much more no crack ever lacks energy, whatever its toughness.
-pub(crate) fn slab_energy_depth(material: &Material) -> f64 {
+fn slab_energy_depth(material: &Material) -> f64 {
     2.0 * material.youngs_modulus * SLAB_TOUGHNESS / material.strength.powi(2)
 }
 
-/// Description of the slab and the blow, from which they can be computed again.
-pub(crate) fn slab_inputs(slab: &Asset) -> String {
-    let [mass, radius, speed] = SLAB_BALL;
-    format!(
-        "The slab is {:.0} × {:.0} × {:.0} mm of `paper-slab-high`, {} tetrahedra and {} modes, with γ = {:.0} µm and {:.0e} weak points per m³; a steel ball of \
-         {mass} kg and {:.1} mm radius hits its middle at {speed:.0} m/s",
-        1e3 * SLAB[0],
-        1e3 * SLAB[1],
-        1e3 * SLAB[2],
-        slab.fracture().tets.len(),
-        slab.modes().count(),
-        1e6 * slab.material().energy_depth,
-        SLAB_WEAK_POINTS,
-        1e3 * radius
-    )
-}
-
+/// The body with other numbers of its material. Not for those that are in the modes: E, ν, ρ.
 pub(crate) fn changed(asset: &Arc<Asset>, change: impl FnOnce(&mut Material)) -> Arc<Asset> {
     let mut asset = Asset::clone(asset);
     change(asset.parts_mut().material);

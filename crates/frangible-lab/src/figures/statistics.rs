@@ -4,20 +4,23 @@ use std::sync::Arc;
 
 use frangible::{Asset, Breakable, Contact, FractureConfig, Outcome, impact};
 use rayon::prelude::*;
+use serde::Serialize;
 
-use crate::figures::FigureError;
+use crate::Result;
 
 /// Seeds of every mean.
-pub(crate) const SEEDS: u64 = 50;
+const SEEDS: u64 = 50;
 
 /// Damage by an impact, or the mean of several.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize)]
 pub(crate) struct Damage {
     /// Crack area, m².
+    #[serde(rename = "area_m2")]
     pub(crate) area: f64,
     pub(crate) cracks: f64,
     pub(crate) pieces: f64,
     /// Standard error of the mean of the area, m².
+    #[serde(rename = "area_error_m2")]
     pub(crate) area_error: f64,
     /// Standard error of the mean of the pieces.
     pub(crate) pieces_error: f64,
@@ -36,12 +39,12 @@ pub(crate) fn mean_damage(
     asset: &Arc<Asset>,
     contacts: &[Contact],
     config: &FractureConfig,
-) -> Result<Damage, FigureError> {
+) -> Result<Damage> {
     let kind = Breakable::uniform(Arc::clone(asset))?;
     let all: Vec<Damage> = (1..=SEEDS)
         .into_par_iter()
         .map(|seed| Ok(damage(&impact(&kind.body(seed), contacts, config)?)))
-        .collect::<Result<_, FigureError>>()?;
+        .collect::<Result<_>>()?;
     let (area, area_error) = mean(all.iter().map(|d| d.area));
     let (pieces, pieces_error) = mean(all.iter().map(|d| d.pieces));
     let (cracks, _) = mean(all.iter().map(|d| d.cracks));
@@ -78,9 +81,4 @@ fn mean(values: impl Iterator<Item = f64> + Clone) -> (f64, f64) {
     let mean = values.clone().sum::<f64>() / count;
     let squares: f64 = values.map(|v| (v - mean) * (v - mean)).sum();
     (mean, (squares / (count - 1.0) / count).sqrt())
-}
-
-/// Returns true if the numbers fall, each by more than the sum of the two standard errors.
-pub(crate) fn falls(values: &[(f64, f64)]) -> bool {
-    values.windows(2).all(|w| w[0].0 - w[1].0 > w[0].1 + w[1].1)
 }

@@ -1,6 +1,5 @@
 //! The potters' test: a cracked cup sounds cracked.
 
-use std::error::Error;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -10,11 +9,13 @@ use frangible::{Body, Breakable, Contact, FractureConfig, Material, Outcome, Str
 use frangible_bake::pieces::reanalysis;
 use frangible_bake::{BakeSpec, Shape, bake};
 use frangible_sound::{AssetSound, AudibleDamping, Hold, Strike};
+use serde::Serialize;
 
 use super::RATE;
 use super::faces::{Faces, Tone};
 use super::objects::{blow, struck};
-use crate::plot::Spectrum;
+use super::spectrum::Spectrum;
+use crate::Result;
 
 /// Elements and modes of the cup, intact and cracked.
 const ELEMENTS: usize = 3000;
@@ -36,7 +37,7 @@ const LONG: f64 = 0.4;
 const EVERY: usize = 4;
 
 /// A cup, struck before and after it cracked.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Cup {
     /// Speed of the ball that cracked it, m/s.
     pub speed: f64,
@@ -53,17 +54,21 @@ pub struct Cup {
 }
 
 /// A cup that was knocked at.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Knocked {
     /// Its lowest four modes, Hz.
+    #[serde(rename = "modes_hz")]
     pub modes: Vec<f64>,
     /// The strongest tone below 6 kHz, Hz.
+    #[serde(rename = "tone_hz")]
     pub tone: f64,
     /// The times after which 10, 20 and 30 dB less of the sound's energy is still to come, s.
+    #[serde(rename = "falls_s")]
     pub falls: [f64; 3],
     /// Share of the blow's energy that friction has taken.
     pub rubbed: f64,
     /// The sound, Pa.
+    #[serde(skip)]
     pub samples: Vec<f32>,
 }
 
@@ -96,7 +101,7 @@ impl Cup {
     ///
     /// # Errors
     /// An error of the bake or of the synthesiser.
-    pub fn compute() -> Result<Self, Box<dyn Error>> {
+    pub fn compute() -> Result<Self> {
         let shape = Shape::ready("coffee_cup").ok_or("no such shape")?;
         let material = Material::preset("porcelain")?;
         let spec = BakeSpec {
@@ -154,10 +159,7 @@ impl Cup {
 }
 
 /// The cup as it sounds, and the modal forces of a newton on its wall near the rim at an angle about z; the handle is at −y.
-fn at_rim(
-    cup: &Body,
-    angle: f64,
-) -> Result<(frangible_sound::SoundBody, Vec<f32>), Box<dyn Error>> {
+fn at_rim(cup: &Body, angle: f64) -> Result<(frangible_sound::SoundBody, Vec<f32>)> {
     let damping = AudibleDamping::of(cup.asset().material());
     let (shape, body) = AssetSound::new(cup, &damping, Hold::Free)?;
     let outward = Vec3::new(angle.cos() as f32, angle.sin() as f32, 0.0);
@@ -166,7 +168,7 @@ fn at_rim(
 }
 
 /// The hardest blow in steps that leaves a cup whole and cracked: its speed, m/s, and the cup. The first cup of several that one does.
-fn crack(kind: &Breakable) -> Result<(f64, Body), Box<dyn Error>> {
+fn crack(kind: &Breakable) -> Result<(f64, Body)> {
     let config = FractureConfig::default();
     let striker = Striker::ball(&Material::preset("steel")?, 0.06, 0.0122);
     let point = Vec3::new(0.2, 0.0, 0.02);

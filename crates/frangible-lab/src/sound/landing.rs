@@ -1,6 +1,5 @@
 //! Shards that land on a stone floor: their level by mass and speed, and their decay.
 
-use std::error::Error;
 use std::f64::consts::TAU;
 
 use frangible::Material;
@@ -10,8 +9,10 @@ use frangible_sound::{
     Sounding, SynthConfig,
     glam::{DQuat, DVec3},
 };
+use serde::Serialize;
 
 use super::RATE;
+use crate::Result;
 
 /// Thickness of the shards, m, and ratio of their sides.
 const THICK: f64 = 0.003;
@@ -25,25 +26,24 @@ const SPEEDS: [f64; 3] = [0.5, 1.0, 3.0];
 const BOUNCE: f64 = 0.3;
 
 /// A shard that lands on a corner, tilted by 45°, 1 m away.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Landing {
     /// Mass, kg.
+    #[serde(rename = "mass_kg")]
     pub mass: f64,
     /// Longer side, m.
+    #[serde(rename = "side_m")]
     pub side: f64,
     /// For each of `SPEEDS`: the loudest pressure, and the highest level of a meter set to *fast*, dB.
+    #[serde(rename = "levels_db")]
     pub levels: Vec<[f64; 2]>,
     /// Lowest tone, Hz; its time of decay by 60 dB, s; and that of the material alone.
+    #[serde(rename = "lowest_hz_s_s")]
     pub lowest: [f64; 3],
 }
 
-/// Speeds of the landings, m/s.
-pub(super) fn speeds() -> [f64; 3] {
-    SPEEDS
-}
-
 /// All of them.
-pub(super) fn all() -> Result<Vec<Landing>, Box<dyn Error>> {
+pub(super) fn all() -> Result<Vec<Landing>> {
     MASSES.into_iter().map(Landing::compute).collect()
 }
 
@@ -95,7 +95,7 @@ impl Cast for One {
 }
 
 impl Landing {
-    fn compute(mass: f64) -> Result<Self, Box<dyn Error>> {
+    fn compute(mass: f64) -> Result<Self> {
         let glass = Material::preset("glass")?;
         let width = (mass / (glass.density * THICK * RATIO)).sqrt();
         let sides = [RATIO * width, width, THICK];
@@ -146,14 +146,14 @@ impl Landing {
         Ok(Self {
             mass,
             side: sides[0],
-            levels: levels.into_iter().collect::<Result<_, _>>()?,
+            levels: levels.into_iter().collect::<Result<_>>()?,
             lowest: tone,
         })
     }
 }
 
 /// The loudest pressure of a landing 1 m away, and the highest level of a meter set to *fast*, dB.
-fn heard(one: &One, touch: &RecordedTouch) -> Result<[f64; 2], Box<dyn Error>> {
+fn heard(one: &One, touch: &RecordedTouch) -> Result<[f64; 2]> {
     let listener = Listener {
         channels: 1,
         ..Listener::at(DVec3::new(0.7, 0.5, 0.51), DVec3::ZERO)

@@ -1,11 +1,10 @@
 //! Scenes at their level: true to scale, and by loudness.
 
-use std::error::Error;
-
 use frangible_scenes::{bake, play, scene, sound, sound_config};
 use frangible_sound::{Loudness, SPEED_OF_SOUND, TARGET};
+use serde_json::{Value, json};
 
-use crate::plot::{Axis, Chart, Marker, Series};
+use crate::Result;
 
 /// The scenes.
 const NAMES: [&str; 5] = ["glass", "plate", "pane", "brick", "bottle"];
@@ -39,12 +38,31 @@ pub struct HeardLevel {
 }
 
 /// All of them.
-pub(super) fn all() -> Result<Vec<HeardLevel>, Box<dyn Error>> {
+pub(super) fn all() -> Result<Vec<HeardLevel>> {
     NAMES.into_iter().map(HeardLevel::compute).collect()
 }
 
 impl HeardLevel {
-    fn compute(name: &str) -> Result<Self, Box<dyn Error>> {
+    /// Rows of the table, true to scale and by loudness, and the levels over time.
+    pub(super) fn data(&self) -> [Value; 2] {
+        let names = ["true", "loudness"];
+        [0, 1].map(|k| {
+            json!({
+                "scene": self.name,
+                "level": names[k],
+                "full_scale_db": self.full_scale[k],
+                "integrated_lufs": self.loudness[k].integrated,
+                "true_peak_db": self.loudness[k].true_peak,
+                "reduced_raised_db": (k == 1).then_some(self.changed),
+                "crash_db": self.crash[k],
+                "landings_below_db": self.below(k),
+                "levels_db": self.levels[k].iter().map(|l| l.round()).collect::<Vec<_>>(),
+                "landings": self.landings,
+            })
+        })
+    }
+
+    fn compute(name: &str) -> Result<Self> {
         let scene = scene(name)?;
         let baked = bake(&scene)?;
         let run = play(&scene, &baked, &mut |_| {})?;
@@ -89,7 +107,7 @@ impl HeardLevel {
     }
 
     /// Levels of the landings below the crash, dB: the loudest, the one in the middle, and that which a tenth is softer than.
-    pub(super) fn below(&self, which: usize) -> [f64; 3] {
+    fn below(&self, which: usize) -> [f64; 3] {
         let level = |&at: &usize| self.crash[which] - self.levels[which][at];
         let mut below: Vec<f64> = self.landings.iter().map(level).collect();
         below.sort_by(f64::total_cmp);
@@ -97,38 +115,6 @@ impl HeardLevel {
             let at = (share * below.len() as f64) as usize;
             below.get(at).copied().unwrap_or(f64::NAN)
         })
-    }
-
-    /// The chart of both levels over time.
-    pub(super) fn chart(&self) -> Chart {
-        let point = |which: usize, at: usize| {
-            let level = self.levels[which][at].max(LOWEST);
-            (SHORT * (at as f64 + 0.5), level)
-        };
-        let mut series = Vec::new();
-        for (which, name) in ["by loudness", "true to scale"].into_iter().enumerate() {
-            let which = 1 - which;
-            series.push(Series {
-                name: format!("landings, {name}"),
-                points: (self.landings.iter()).map(|&at| point(which, at)).collect(),
-                marker: [Marker::Square, Marker::Disc][which],
-                line: false,
-            });
-            series.push(Series {
-                name: name.into(),
-                points: (0..self.levels[which].len())
-                    .map(|at| point(which, at))
-                    .collect(),
-                marker: Marker::Nothing,
-                line: true,
-            });
-        }
-        Chart {
-            title: self.name.clone(),
-            x: Axis::linear("time, s"),
-            y: Axis::linear("level of 20 ms, dB over full scale").including(0.0),
-            series,
-        }
     }
 }
 

@@ -3,19 +3,17 @@
 //! Closed forms and published spectra stand beside the synthesiser's results for baked bodies. The tests of `frangible-sound` check the radiation of
 //! spheres, energies and onsets; here are whole bodies.
 
-mod cost;
 mod cup;
 mod faces;
 mod landing;
 mod levels;
 mod objects;
-mod page;
-mod page_levels;
 mod scenes;
+mod spectrum;
 
-use std::error::Error;
+use serde_json::{Value, json};
 
-pub use cost::Cost;
+use crate::{Progress, Result};
 pub use cup::{Cup, FRICTIONS, Knocked};
 pub use landing::Landing;
 pub use levels::HeardLevel;
@@ -23,9 +21,9 @@ pub use objects::{Object, Partial};
 pub use scenes::{Drop, HeardScene};
 
 /// Samples per second.
-const RATE: f64 = 48_000.0;
+pub const RATE: f64 = 48_000.0;
 
-/// Results of the page.
+/// Results of the measurement.
 #[derive(Clone, Debug)]
 pub struct Heard {
     /// Bodies struck once, with their partials.
@@ -40,8 +38,6 @@ pub struct Heard {
     pub landings: Vec<Landing>,
     /// The glass dropped from heights that double.
     pub drops: Vec<Drop>,
-    /// Computing time of a resonator.
-    pub cost: Cost,
 }
 
 impl Heard {
@@ -49,7 +45,7 @@ impl Heard {
     ///
     /// # Errors
     /// An error of the bake, of the scenes or of the synthesiser.
-    pub fn compute(hear: &mut dyn FnMut(f64)) -> Result<Self, Box<dyn Error>> {
+    pub fn compute(hear: Progress<'_>) -> Result<Self> {
         let objects = objects::all()?;
         hear(0.2);
         let cup = Cup::compute()?;
@@ -63,7 +59,6 @@ impl Heard {
         hear(0.9);
         let drops = scenes::drops()?;
         hear(0.98);
-        let cost = Cost::measure()?;
         Ok(Self {
             objects,
             cup,
@@ -71,7 +66,73 @@ impl Heard {
             levels,
             landings,
             drops,
-            cost,
         })
+    }
+
+    /// The numbers; the same build gives the same ones.
+    #[must_use]
+    pub fn data(&self) -> Value {
+        let partials = self.objects.iter().flat_map(|object| {
+            let row = |partial| json!({ "body": object.name, "partial": partial });
+            object.partials.iter().map(row)
+        });
+        let decays = self
+            .objects
+            .iter()
+            .map(|o| json!({ "body": o.name, "source": o.source, "decay_s": o.decay }));
+        let cup = &self.cup;
+        let mut cups = vec![
+            ("whole".into(), &cup.whole),
+            (
+                "cracked, faces that run through each other".into(),
+                &cup.open,
+            ),
+        ];
+        let rubbing =
+            |friction: f32| format!("cracked, faces that beat and rub, friction {friction:.2}");
+        cups.extend(FRICTIONS.map(rubbing).into_iter().zip(&cup.rattling));
+        let cups = cups
+            .iter()
+            .map(|(name, knocked)| json!({ "cup": name, "knocked": knocked }));
+        let scenes = self.scenes.iter().map(|scene| {
+            let mut row = json!(scene);
+            row["sent_shares"] = json!(scene.sources.map(|[energy, ..]| energy / scene.lost));
+            row
+        });
+        let [first, ..] = &self.drops[..] else {
+            return Value::Null;
+        };
+        let drops = self.drops.iter().map(|[height, level, error]| {
+            let fall = 10.0 * (height / first[0]).log10();
+            json!({ "height_m": height, "fall_db": fall, "sound_db": level - first[1], "error_db": error })
+        });
+        json!({
+            "partials": partials.collect::<Vec<_>>(),
+            "decays": decays.collect::<Vec<_>>(),
+            "cup": { "two_tones_hz": cup.two_tones, "speed_m_s": cup.speed, "places": cup.places },
+            "cups": cups.collect::<Vec<_>>(),
+            "scenes": scenes.collect::<Vec<_>>(),
+            "levels": self.levels.iter().flat_map(HeardLevel::data).collect::<Vec<_>>(),
+            "landings": self.landings,
+            "drops": drops.collect::<Vec<_>>(),
+        })
+    }
+
+    /// The sounds that are drawn as spectrograms: name and samples, Pa.
+    #[must_use]
+    pub fn sounds(&self) -> Vec<(&str, &[f32])> {
+        let cups = [
+            ("cup-whole", &self.cup.whole),
+            ("cup-cracked", &self.cup.rattling[1]),
+        ];
+        let half = |k: &'_ Knocked| k.samples.len() / 2;
+        let cups = cups
+            .into_iter()
+            .map(|(name, k)| (name, &k.samples[..half(k)]));
+        let scenes = self.scenes.iter().map(|scene| {
+            let end = (scene.long.min(4.0) * RATE) as usize;
+            (&*scene.name, &scene.samples[..end.min(scene.samples.len())])
+        });
+        cups.chain(scenes).collect()
     }
 }

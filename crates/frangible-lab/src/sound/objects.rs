@@ -1,6 +1,5 @@
 //! Bodies that are struck once.
 
-use std::error::Error;
 use std::sync::Arc;
 
 use frangible::glam::Vec3;
@@ -10,26 +9,32 @@ use frangible_sound::glam::{DQuat, DVec3};
 use frangible_sound::{
     AssetSound, AudibleDamping, Hold, Listener, SoundBody, SoundPulse, Strike, Synth, SynthConfig,
 };
+use serde::Serialize;
 
 use super::RATE;
-use crate::plot::Spectrum;
+use super::spectrum::Spectrum;
+use crate::Result;
 
 /// Time for which a struck body is listened to, s.
 const LONG: f64 = 2.0;
 
 /// A tone of a body.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize)]
 pub struct Partial {
     /// Frequency of the mode of the bake, Hz.
+    #[serde(rename = "mode_hz")]
     pub mode: f64,
     /// Frequency that was found in the sound, Hz.
+    #[serde(rename = "heard_hz")]
     pub heard: f64,
     /// Published or in closed form, as a multiple of the first.
     pub known: f64,
+    /// Heard, as a multiple of the first.
+    pub ratio: f64,
 }
 
 /// A body with its tones.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Object {
     /// Name of the object.
     pub name: &'static str,
@@ -40,6 +45,7 @@ pub struct Object {
     /// Time in which the first tone falls by 60 dB, s: by the damping alone, and measured in the sound.
     pub decay: [f64; 2],
     /// The sound, Pa.
+    #[serde(skip)]
     pub samples: Vec<f32>,
 }
 
@@ -56,7 +62,7 @@ struct Plan {
 }
 
 /// All of them.
-pub(super) fn all() -> Result<Vec<Object>, Box<dyn Error>> {
+pub(super) fn all() -> Result<Vec<Object>> {
     let glass = Material::preset("glass")?;
     let mut tile = Material::preset("porcelain")?;
     // The series' own.
@@ -121,7 +127,7 @@ fn wine_glass() -> Vec<Station> {
 }
 
 impl Plan {
-    fn heard(self) -> Result<Object, Box<dyn Error>> {
+    fn heard(self) -> Result<Object> {
         let damping = AudibleDamping::of(&self.material);
         let spec = BakeSpec {
             modes: 40,
@@ -141,7 +147,13 @@ impl Plan {
                 Some(first) => nearest(&body, known * first.mode),
             };
             let (heard, _) = spectrum.peak(0.985 * mode, 1.015 * mode).ok_or("no peak")?;
-            partials.push(Partial { mode, heard, known });
+            let ratio = heard / partials.first().map_or(heard, |first| first.heard);
+            partials.push(Partial {
+                mode,
+                heard,
+                known,
+                ratio,
+            });
         }
         let decay = [
             body.modes[0].reverberation(),
@@ -176,11 +188,7 @@ pub(super) fn blow(push: Vec<f32>) -> Strike {
 }
 
 /// The sound of strikes that begin together, at 1 m, Pa, for a time, s.
-pub(super) fn struck(
-    body: &SoundBody,
-    strikes: Vec<Strike>,
-    long: f64,
-) -> Result<Vec<f32>, Box<dyn Error>> {
+pub(super) fn struck(body: &SoundBody, strikes: Vec<Strike>, long: f64) -> Result<Vec<f32>> {
     let place = DVec3::new(0.7, 0.3, 0.65);
     let listener = Listener {
         channels: 1,

@@ -1,12 +1,13 @@
 //! Scenes, played and heard.
 
-use std::error::Error;
-
 use frangible_scenes::{
     Run, Scene, Sources, bake, energy_lost, energy_radiated, play, scene, sound, sound_config,
     sound_of,
 };
-use frangible_sound::{Listener, SPEED_OF_SOUND, SoundError};
+use frangible_sound::{Listener, SPEED_OF_SOUND};
+use serde::Serialize;
+
+use crate::Result;
 
 /// The scenes.
 pub(super) const NAMES: [&str; 6] = ["glass", "plate", "brick", "chocolate", "piggy-bank", "wall"];
@@ -15,7 +16,7 @@ pub(super) const NAMES: [&str; 6] = ["glass", "plate", "brick", "chocolate", "pi
 const HEIGHTS: [f64; 3] = [0.4, 0.8, 1.6];
 
 /// A scene and its sound.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct HeardScene {
     /// Its name.
     pub name: String,
@@ -24,23 +25,30 @@ pub struct HeardScene {
     /// Strikes on something, and cracks that were heard.
     pub events: [usize; 2],
     /// Time of the first sound, s: as expected from the first blow and the distance, and as heard.
+    #[serde(rename = "onset_s")]
     pub onset: [f64; 2],
     /// The loudest pressure, dB over 20 µPa: full scale of its WAV.
+    #[serde(rename = "loudest_db")]
     pub loudest: f64,
     /// Mean of the samples over their root mean square.
     pub offset: f64,
     /// Time until the level of the last tenth of a second is 60 dB below the loudest, s.
+    #[serde(rename = "long_s")]
     pub long: f64,
     /// Most bodies and resonators at once.
     pub most: [usize; 2],
     /// Times of the blows, s.
+    #[serde(rename = "blows_s")]
     pub blows: Vec<f64>,
     /// Left channel.
+    #[serde(skip)]
     pub samples: Vec<f32>,
     /// Energy that the scene lost, J.
+    #[serde(rename = "lost_j")]
     pub lost: f64,
     /// Energy radiated, J, and at 1 m the loudest pressure and the highest level of a meter set to *fast*, dB: of all sources together, and of blows,
     /// cracks, touches and slides by themselves.
+    #[serde(rename = "sources_j_db_db")]
     pub sources: [[f64; 3]; 5],
 }
 
@@ -49,7 +57,7 @@ pub(super) const FAST: f64 = 0.125;
 
 impl HeardScene {
     /// Bakes, plays and hears a built-in scene.
-    pub(super) fn compute(name: &str) -> Result<Self, Box<dyn Error>> {
+    pub(super) fn compute(name: &str) -> Result<Self> {
         let scene = scene(name)?;
         let baked = bake(&scene)?;
         let run = play(&scene, &baked, &mut |_| {})?;
@@ -108,7 +116,7 @@ impl HeardScene {
 }
 
 /// Measures of the sources of a scene at 1 m from the camera's target, as in [`HeardScene::sources`].
-fn sources(run: &Run, scene: &Scene) -> Result<[[f64; 3]; 5], SoundError> {
+fn sources(run: &Run, scene: &Scene) -> Result<[[f64; 3]; 5]> {
     let mut config = sound_config(run, scene);
     let target = run.recording.camera.target.as_dvec3();
     let away = (config.listener.place - target).normalize();
@@ -149,7 +157,7 @@ pub(super) const SEEDS: u64 = 8;
 pub type Drop = [f64; 3];
 
 /// The glass dropped from some heights.
-pub(super) fn drops() -> Result<Vec<Drop>, Box<dyn Error>> {
+pub(super) fn drops() -> Result<Vec<Drop>> {
     let mut drops = Vec::new();
     for height in HEIGHTS {
         let mut scene = scene("glass")?;

@@ -1,7 +1,10 @@
 //! One comparison with a reference.
 
+use serde::Serialize;
+use serde_json::{Value, json};
+
 /// A computed value and its reference.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Check {
     /// Name of the quantity, unique within its case.
     pub name: String,
@@ -28,6 +31,14 @@ impl Check {
         }
     }
 
+    /// The numbers of the check, with its error.
+    #[must_use]
+    pub fn data(&self) -> Value {
+        let mut data = json!(self);
+        data["error"] = json!(self.error());
+        data
+    }
+
     /// Returns true if the error is within the tolerance. A NaN never is.
     #[must_use]
     pub fn passes(&self) -> bool {
@@ -35,25 +46,11 @@ impl Check {
     }
 }
 
-/// A check of a frequency, Hz.
-pub(crate) fn hertz(
+/// A check of a computed value and its reference.
+pub(crate) fn check(
     name: impl Into<String>,
-    value: f64,
-    reference: f64,
-    tolerance: f64,
-    source: &'static str,
-) -> Check {
-    Check {
-        unit: "Hz",
-        ..number(name, value, reference, tolerance, source)
-    }
-}
-
-/// A check of a pure number.
-pub(crate) fn number(
-    name: impl Into<String>,
-    value: f64,
-    reference: f64,
+    unit: &'static str,
+    [value, reference]: [f64; 2],
     tolerance: f64,
     source: &'static str,
 ) -> Check {
@@ -62,7 +59,16 @@ pub(crate) fn number(
         reference,
         value,
         tolerance,
-        unit: "",
+        unit,
         source,
     }
 }
+
+/// Checks, one a line: name, unit, value and reference, tolerance, source of the reference.
+macro_rules! checks {
+    ($($name:expr, $unit:literal, $value:expr => $reference:expr, $tolerance:expr, $source:expr;)*) => {
+        vec![$($crate::verify::check::check($name, $unit, [$value, $reference], $tolerance, $source)),*]
+    };
+}
+
+pub(crate) use checks;

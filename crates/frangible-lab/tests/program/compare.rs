@@ -34,29 +34,15 @@ fn unknown_scenes_and_methods_are_met_with_the_nearest() {
 }
 
 #[test]
-fn a_scene_in_which_nothing_breaks_is_refused_and_leaves_no_folder() {
+fn a_scene_in_which_nothing_breaks_is_refused() {
     let folder = Folder::new("compare-held");
     let scene = folder.path().join("soft.toml");
-    fs::write(
-        &scene,
-        PANE.replace("\"glass\"", "{ preset = \"glass\", strength = 1e10 }"),
-    )
-    .expect("a scene");
-    let out = folder.path().join("out");
-    let output = lab(&[
-        "compare",
-        scene.to_str().expect("a path"),
-        "--out",
-        out.to_str().expect("a path"),
-    ]);
-    let message = text(&output.stderr);
-    assert!(!output.status.success());
-    assert!(
-        message.contains("no impact breaks a body in the scene `soft`"),
-        "{message}"
+    let soft = PANE.replace("\"glass\"", "{ preset = \"glass\", strength = 1e10 }");
+    fs::write(&scene, soft).expect("a scene");
+    refused(
+        &["compare", scene.to_str().expect("a path")],
+        &["no impact breaks a body in the scene `soft`", "--seed"],
     );
-    assert!(message.contains("--seed"), "{message}");
-    assert!(!out.exists());
 }
 
 #[test]
@@ -65,51 +51,30 @@ fn impossible_options_are_refused() {
     let scene = folder.path().join("pane.toml");
     fs::write(&scene, PANE).expect("a scene");
     let scene = scene.to_str().expect("a path");
-    let out = folder.path().join("out");
     for (option, value, part) in [
         ("--step", "-1", "the quasi-static step is"),
         ("--sites", "0", "the number of sites is 0"),
         ("--cells", "1000000", "the number of cells is 1000000"),
     ] {
-        let output = lab(&[
-            "compare",
-            scene,
-            option,
-            value,
-            "--out",
-            out.to_str().expect("a path"),
-        ]);
-        let message = text(&output.stderr);
-        assert!(!output.status.success());
-        assert!(
-            message.starts_with("error: ") && message.contains(part),
-            "{message}"
-        );
+        refused(&["compare", scene, option, value], &[part]);
     }
 }
 
 #[test]
-fn the_methods_are_told_of_in_table_and_json() {
+fn every_method_has_its_numbers_and_a_pane_of_the_picture() {
     let folder = Folder::new("compare");
     let scene = folder.path().join("pane.toml");
     fs::write(&scene, PANE).expect("a scene");
-    let out = folder.path().join("out");
-    let scene = scene.to_str().expect("a path");
-    let output = lab(&[
-        "compare",
-        scene,
-        "--no-pictures",
-        "--json",
-        "--out",
-        out.to_str().expect("a path"),
-    ]);
-    assert!(output.status.success(), "{}", text(&output.stderr));
-    let report: Value = serde_json::from_slice(&output.stdout).expect("JSON");
-    let file = fs::read(out.join("pane-compare.json")).expect("the report");
-    assert_eq!(
-        report,
-        serde_json::from_slice::<Value>(&file).expect("JSON")
+    let (scene, png) = (
+        scene.to_str().expect("a path"),
+        folder.path().join("pane.png"),
     );
+    let measured = |words: &[&str]| -> Value {
+        let output = lab(&[&["compare", scene], words].concat());
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        serde_json::from_slice::<Value>(&output.stdout).expect("JSON")["measured"].take()
+    };
+    let report = measured(&["--picture", png.to_str().expect("a path")]);
     let rows = report["methods"].as_array().expect("rows");
     let names: Vec<&str> = rows.iter().filter_map(|r| r["method"].as_str()).collect();
     let all = [
@@ -128,52 +93,16 @@ fn the_methods_are_told_of_in_table_and_json() {
         );
         assert!(row["energy_j"].as_f64() > Some(0.0), "{row}");
     }
-    let table = fs::read_to_string(out.join("pane-compare.md")).expect("the table");
-    assert_eq!(
-        table.lines().filter(|line| line.starts_with('|')).count(),
-        2 + all.len()
-    );
-
-    // Fewer of them, the same numbers.
-    let output = lab(&[
-        "compare",
-        scene,
-        "--no-pictures",
-        "--json",
-        "--methods",
-        "voronoi",
-        "--out",
-        out.to_str().expect("a path"),
-    ]);
-    let alone: Value = serde_json::from_slice(&output.stdout).expect("JSON");
-    let alone = &alone["methods"][0];
-    assert_eq!(alone["crack_area_cm2"], rows[4]["crack_area_cm2"]);
-    assert_eq!(alone["pieces"], rows[4]["pieces"]);
-}
-
-#[test]
-fn the_picture_has_a_pane_for_the_impact_and_each_method() {
-    let folder = Folder::new("compare-picture");
-    let scene = folder.path().join("pane.toml");
-    fs::write(&scene, PANE).expect("a scene");
-    let out = folder.path().join("out");
-    let output = lab(&[
-        "compare",
-        scene.to_str().expect("a path"),
-        "--methods",
-        "ours,voronoi",
-        "--out",
-        out.to_str().expect("a path"),
-    ]);
-    assert!(output.status.success(), "{}", text(&output.stderr));
-    let picture = image::open(out.join("pane-compare.png"))
-        .expect("a picture")
-        .into_rgb8();
-    assert_eq!(picture.dimensions(), (3 * 420 + 2 * 4, 340));
+    let picture = image::open(png).expect("a picture").into_rgb8();
+    assert_eq!(picture.dimensions(), (3 * 420 + 2 * 4, 2 * 340 + 4));
     // Each pane shows something of its own.
     let pane = |i: u32| {
         let crop = image::imageops::crop_imm(&picture, i * 424, 60, 420, 280);
         crop.to_image().into_raw()
     };
     assert!(pane(0) != pane(1) && pane(1) != pane(2));
+    // Fewer of them, the same numbers.
+    let alone = &measured(&["--methods", "voronoi"])["methods"][0];
+    assert_eq!(alone["crack_area_m2"], rows[4]["crack_area_m2"]);
+    assert_eq!(alone["pieces"], rows[4]["pieces"]);
 }

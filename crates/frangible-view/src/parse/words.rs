@@ -7,13 +7,12 @@ use frangible::glam::Vec3;
 
 use crate::command::{Mark, Subject, Target, Tool};
 
-pub(crate) const SUBJECTS: [(&str, Subject); 6] = [
+pub(crate) const SUBJECTS: [(&str, Subject); 5] = [
     ("world", Subject::World),
     ("stress", Subject::Stress),
     ("cracks", Subject::Cracks),
     ("modes", Subject::Modes),
     ("compare", Subject::Compare),
-    ("methods", Subject::Methods),
 ];
 
 pub(crate) const TOOLS: [(&str, Tool); 2] = [("ball", Tool::Ball), ("hammer", Tool::Hammer)];

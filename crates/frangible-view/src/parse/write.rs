@@ -46,13 +46,6 @@ impl fmt::Display for Command {
             Self::ResetKnobs => write!(f, "reset-knob all"),
             Self::Material(name) => write!(f, "material {name}"),
             Self::HitAgain => write!(f, "hit-again"),
-            Self::CompareMethods(methods) => {
-                let names: Vec<&str> = methods.iter().map(|method| method.name()).collect();
-                match names.is_empty() {
-                    true => write!(f, "compare-methods first"),
-                    false => write!(f, "compare-methods {}", names.join(",")),
-                }
-            }
             Self::Save(target, path) => {
                 write!(f, "save {} {}", name_of(*target, &TARGETS), path.display())
             }

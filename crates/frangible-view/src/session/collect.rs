@@ -25,7 +25,7 @@ impl Session {
 
     fn poll_all(&mut self, wait: Option<Duration>) -> bool {
         let first = self.poll_bake(wait) | self.poll_analysis(wait);
-        first | self.poll_again(wait) | self.poll_methods(wait) | self.poll_film(wait)
+        first | self.poll_again(wait) | self.poll_film(wait)
     }
 
     fn has_jobs(&self) -> bool {
@@ -33,7 +33,6 @@ impl Session {
             || self.analysis_job.is_some()
             || self.again_job.is_some()
             || self.film_job.is_some()
-            || self.methods_job.is_some()
     }
 
     /// Returns true while a background job runs.

@@ -14,7 +14,7 @@ use crate::compare;
 use crate::error::ViewError;
 use crate::jobs::Job;
 use crate::marks;
-use crate::numbers::{BlowNumbers, ComparedNumbers, KnobValues, OutcomeNumbers};
+use crate::numbers::{BlowNumbers, ComparedNumbers, KnobValues};
 use crate::picking::pick;
 use crate::picture::{Batch, Picture};
 use crate::shown::{BakeShown, Focus, Selection, Shown};
@@ -29,13 +29,7 @@ impl Session {
                     "there is nothing to compare yet; repeat the last impact first (H)".into(),
                 ));
             }
-            Subject::Methods if self.methods.is_none() => {
-                return Err(ViewError::NotNow(
-                    "no methods have been compared yet; apply them to the last impact first (M)"
-                        .into(),
-                ));
-            }
-            Subject::Compare | Subject::Methods => {}
+            Subject::Compare => {}
             Subject::Stress | Subject::Cracks | Subject::Modes => self.analyse()?,
         }
         self.set_subject(subject);
@@ -117,10 +111,7 @@ impl Session {
         };
         let bake = self.bake_job.as_ref().map(Job::progress);
         let again = self.again_job.as_ref().map(Job::progress);
-        let methods = self.methods_job.as_ref().map(|m| m.job.progress());
-        let told = again
-            .or(methods)
-            .filter(|progress| !progress.what.is_empty());
+        let told = again.filter(|progress| !progress.what.is_empty());
         let progress = bake.or(told);
         Shown {
             commands: self.commands,
@@ -160,9 +151,7 @@ impl Session {
                 }
             }),
             reel: self.reel.seconds(),
-            analysing: self.analysis_job.is_some()
-                || self.again_job.is_some()
-                || self.methods_job.is_some(),
+            analysing: self.analysis_job.is_some() || self.again_job.is_some(),
             message: self.message.clone(),
             picture: Arc::clone(&self.picture),
             subject: self.subject,
@@ -176,11 +165,6 @@ impl Session {
             largest_color: self.largest_color,
             selection: self.selected(),
             compared: self.compared.as_deref().map(ComparedNumbers::from),
-            chosen: self.methods.as_ref().map(|m| m.chosen.clone()),
-            methods: self
-                .methods
-                .as_deref()
-                .map_or_else(Vec::new, OutcomeNumbers::of),
             knobs: self.settings.as_ref().map(KnobValues::from),
             turned: match (&self.built, &self.settings) {
                 (Some(built), Some([now, _])) => built != now,
@@ -204,8 +188,6 @@ impl Session {
     pub(super) fn turn_to(&mut self, subject: Subject) {
         self.subject = subject;
         let on = match (subject, &self.blow) {
-            (Subject::Methods, _) => (self.methods.as_ref())
-                .map(|methods| (methods.blow.pose.translation, methods.extent())),
             (Subject::World, _) | (_, None) => None,
             (Subject::Compare, Some(blow)) => Some((blow.pose.translation, compare::extent(blow))),
             (_, Some(blow)) => {
@@ -269,7 +251,6 @@ impl Session {
                 Some(marks::cracks(analysis, blow.pose, self.scrub))
             }
             (Subject::Compare, ..) => self.side_by_side(live, &mut picture),
-            (Subject::Methods, ..) => self.panes(live, &mut picture),
             _ => None,
         };
         picture.batches = match shown {
@@ -297,19 +278,8 @@ impl Session {
         Some(batches)
     }
 
-    /// The last impact by several methods.
-    fn panes(&self, live: &LiveScene, picture: &mut Picture) -> Option<Vec<Batch>> {
-        let (batches, labels) = self.methods.as_ref()?.draw(live, self.explode as f32);
-        picture.labels = labels;
-        picture.floor = None;
-        Some(batches)
-    }
-
     fn mark_contact(&self, picture: &mut Picture) {
-        if matches!(
-            self.subject,
-            Subject::Compare | Subject::Methods | Subject::Modes
-        ) {
+        if matches!(self.subject, Subject::Compare | Subject::Modes) {
             return;
         }
         let Some(blow) = &self.blow else { return };

@@ -133,7 +133,6 @@ impl Session {
                     job.cancel();
                 }
             }
-            Command::CompareMethods(methods) => self.compare_methods(methods)?,
             Command::Save(target, path) => {
                 self.write(target, &path)?;
                 self.say(format!("wrote {}", path.display()));

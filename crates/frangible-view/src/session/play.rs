@@ -164,8 +164,6 @@ impl Session {
         self.recent = None;
         self.forget_analysis();
         self.compared = None;
-        self.methods = None;
-        self.methods_job = None;
         self.set_subject(Subject::World);
         self.paused = true;
         self.say("back to just before the break; the simulation is paused".into());

@@ -115,10 +115,8 @@ impl Session {
         self.blow = None;
         self.analysis = None;
         self.compared = None;
-        self.methods = None;
         self.analysis_job = None;
         self.again_job = None;
-        self.methods_job = None;
         self.selection = None;
         self.grip = None;
         self.set_subject(Subject::World);
@@ -155,8 +153,6 @@ impl Session {
         if self.bake_job.take().is_some() {
             self.hits_again = false;
             self.say("the bake was cancelled".into());
-        } else if self.methods_job.take().is_some() {
-            self.say("the comparison was cancelled".into());
         }
     }
 }

@@ -9,7 +9,6 @@ use super::Session;
 use crate::analysis::Analysis;
 use crate::blow::Blow;
 use crate::command::{Command, Mark, Subject};
-use crate::methods::Methods;
 
 impl Session {
     /// Returns true if there is a scene and the simulation is not paused.
@@ -40,12 +39,6 @@ impl Session {
     #[must_use]
     pub fn blow(&self) -> Option<&Arc<Blow>> {
         self.blow.as_ref()
-    }
-
-    /// Returns the comparison of methods for the last impact, once requested.
-    #[must_use]
-    pub fn methods(&self) -> Option<&Arc<Methods>> {
-        self.methods.as_ref()
     }
 
     /// Returns the commands since the scene was loaded, a script that reproduces the session.

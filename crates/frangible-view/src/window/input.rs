@@ -28,7 +28,6 @@ pub(super) enum Stroke {
     Cracks,
     Modes,
     Compare,
-    Methods,
     Wireframe,
     Explode,
     Home,
@@ -42,7 +41,7 @@ pub(super) enum Stroke {
 }
 
 /// Keys, their names, and their meanings, in the order of the help.
-pub(super) const KEYS: [(Key, &str, Stroke, &str); 24] = [
+pub(super) const KEYS: [(Key, &str, Stroke, &str); 23] = [
     (
         Key::Space,
         "space",
@@ -100,12 +99,6 @@ pub(super) const KEYS: [(Key, &str, Stroke, &str); 24] = [
         "5",
         Stroke::Compare,
         "show both outcomes of the repeated impact",
-    ),
-    (
-        Key::M,
-        "M",
-        Stroke::Methods,
-        "compare fracture methods on the last impact, side by side",
     ),
     (
         Key::X,

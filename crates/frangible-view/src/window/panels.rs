@@ -9,7 +9,6 @@ mod help;
 mod inspect;
 mod knobs;
 mod layout;
-mod methods;
 mod performance;
 mod play;
 mod status;

@@ -1,4 +1,4 @@
-//! The partition by cuts that come from elsewhere than from cracks: with it crate `frangible-compare` makes other methods' pieces.
+//! The partition by cuts that come from elsewhere than from cracks: with it `frangible_lab::compare` makes other methods' pieces.
 
 use super::build::{Built, build_cracked};
 use super::draft::divided_tets;

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
-/// Runs the validation and benchmarks of Frangible and writes the results as documentation pages.
+/// Runs the validation and benchmarks of Frangible, and writes the numbers as JSON.
 #[derive(Debug, Parser)]
 #[command(name = "frangible-lab", version)]
 pub(crate) struct Cli {
@@ -14,57 +14,44 @@ pub(crate) struct Cli {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// Check modes, responses and contacts against closed-form solutions; fail if one exceeds its tolerance (seconds; verification.md)
-    Verify(PageArgs),
-    /// Compare cracks and pieces with published experiments (minutes; experiments.md)
-    Experiments(PageArgs),
-    /// Compare approximate vibration modes of fragments with a full analysis of each fragment (minutes; recursive.md)
+    /// Check modes, responses and contacts against closed-form solutions; fail if one exceeds its tolerance (seconds)
+    Verify(Write),
+    /// Compare cracks and pieces with published experiments (minutes)
+    Experiments(Write),
+    /// Compare approximate vibration modes of fragments with a full analysis of each fragment (minutes)
     Pieces(PiecesArgs),
-    /// Tabulate the near field, the residual vector and the force of a blow (a minute; near-field.md)
-    NearField(PageArgs),
-    /// Compare synthesised sounds with closed-form solutions and published spectra (minutes; sound.md)
-    Sound(PageArgs),
-    /// Reproduce the figures of the paper on which the model is based, and check each of its claims (minutes; figures.md)
+    /// Measure the near field, the residual vector and the force of a blow (a minute)
+    NearField(Write),
+    /// Compare synthesised sounds with closed-form solutions and published spectra (minutes)
+    Sound(Write),
+    /// Compute the numbers behind the figures of the paper on which the model is based (minutes)
     Figures(FiguresArgs),
-    /// Measure the time of breaks of the bodies in the paper's Table 1, the time to reject harmless contacts, and more (performance.md)
+    /// Measure the time of breaks, of rejected contacts and of scenes
     Bench(BenchArgs),
+    /// Compare fracture methods on the first impact of a scene: ours, quasi-static, along element faces, Voronoi cells by strain energy,
+    /// Voronoi cells around the impact
+    Compare(CompareArgs),
     /// Draw the pictures of the documentation's gallery, or with --hero the film on the first page (a minute each)
     Gallery(GalleryArgs),
-    /// Compare fracture methods on the same impact: ours, quasi-static, along element faces, Voronoi cells by strain energy, Voronoi
-    /// cells around the impact; write a picture (PNG) and a table (Markdown, JSON)
-    Compare(CompareArgs),
+    /// Fill the quotations of data in the pages of a folder
+    Pages {
+        /// Folder of the pages
+        #[arg(default_value = "docs")]
+        docs: PathBuf,
+    },
 }
 
 #[derive(Args, Clone, Debug)]
-pub(crate) struct PageArgs {
-    /// Print JSON instead of a table
-    #[arg(long)]
-    pub(crate) json: bool,
-
-    /// Also write the command's page and its pictures to this folder, created if it does not exist
+pub(crate) struct Write {
+    /// Write DIR/data/NAME.json and fill the quotations in the pages of DIR, instead of printing JSON
     #[arg(long, value_name = "DIR")]
     pub(crate) write: Option<PathBuf>,
 }
 
 #[derive(Args, Clone, Debug)]
-pub(crate) struct GalleryArgs {
-    /// Scenes to draw [default: all scenes of the gallery]
-    #[arg(value_name = "SCENE")]
-    pub(crate) scenes: Vec<String>,
-
-    /// Make the film of five breaks (hero.webp) instead
-    #[arg(long, conflicts_with = "scenes")]
-    pub(crate) hero: bool,
-
-    /// Folder for the pictures, created if it does not exist
-    #[arg(long, default_value = "docs/gallery", value_name = "DIR")]
-    pub(crate) write: PathBuf,
-}
-
-#[derive(Args, Clone, Debug)]
 pub(crate) struct PiecesArgs {
     #[command(flatten)]
-    pub(crate) page: PageArgs,
+    pub(crate) write: Write,
 
     /// Number of fragments to analyse, 1 to 10000 [default: 200]
     #[arg(long, value_name = "N", value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(1..=10_000))]
@@ -74,16 +61,11 @@ pub(crate) struct PiecesArgs {
 #[derive(Args, Clone, Debug)]
 pub(crate) struct FiguresArgs {
     /// Figures to compute, such as fig3 fig12 [default: all]
-    #[arg(value_name = "NAME")]
+    #[arg(value_name = "NAME", conflicts_with = "write")]
     pub(crate) names: Vec<String>,
 
-    /// Folder for figures.md and its pictures, created if it does not exist; figures that are not computed stay unchanged on the page
-    #[arg(short = 'o', long, default_value = "out", value_name = "DIR")]
-    pub(crate) write: PathBuf,
-
-    /// Print JSON instead of text: claims, verdicts and tables
-    #[arg(long)]
-    pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) write: Write,
 }
 
 /// Subject of a benchmark.
@@ -95,38 +77,26 @@ pub(crate) enum Measured {
     Gallery,
     /// Rejected contacts
     Contacts,
-    /// Haptics: a plate touched at 1000 Hz
-    Haptic,
-    /// A bull in a china shop
-    Shop,
     /// Scenes with pieces that break again, with a game's settings
     Again,
-    /// Batches of impacts on the GPU and on the CPU
-    Gpu,
-    /// All of these
-    All,
-    /// Roofline of crack initiation: achieved and peak rates of arithmetic and memory (roofline.md)
-    Roofline,
 }
 
 #[derive(Args, Clone, Debug)]
 pub(crate) struct BenchArgs {
     /// Benchmark to run
-    #[arg(value_enum, default_value = "all")]
+    #[arg(value_enum)]
     pub(crate) what: Measured,
 
+    #[command(flatten)]
+    pub(crate) write: Write,
+
     /// Measure only this body of Table 1 or of the gallery; may be repeated
-    #[arg(long = "body", value_name = "NAME")]
+    #[arg(long = "body", value_name = "NAME", conflicts_with = "write")]
     pub(crate) bodies: Vec<String>,
 
-    /// Number of runs, 1 to 10000: for Table 1 and the gallery, warm runs of each body [default: 30, fewer if they take over ten seconds];
-    /// for the plate, the shop and the scenes, runs of which the shortest time of each tick or frame counts [default: 5]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000))]
-    pub(crate) runs: Option<u32>,
-
-    /// Number of ticks of 1 ms in the haptics benchmark, 100 to 10000000
-    #[arg(long, value_name = "N", default_value_t = 20_000, value_parser = clap::value_parser!(u32).range(100..=10_000_000))]
-    pub(crate) ticks: u32,
+    /// Number of runs, 1 to 10000 [default: 30 of each body, fewer if they take over ten seconds; 3 of each scene]
+    #[arg(long, value_name = "N", value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(1..=10_000))]
+    pub(crate) runs: Option<usize>,
 
     /// Skip the literal implementation of the paper's algorithms, which takes most of the time
     #[arg(long)]
@@ -139,25 +109,16 @@ pub(crate) struct BenchArgs {
     /// Bake all bodies again
     #[arg(long)]
     pub(crate) rebake: bool,
-
-    /// Print JSON instead of tables
-    #[arg(long)]
-    pub(crate) json: bool,
-
-    /// Also write the results to their section of performance.md, or to roofline.md, in this folder, created if it does not exist; measures all
-    /// bodies, baked again
-    #[arg(long, value_name = "DIR")]
-    pub(crate) write: Option<PathBuf>,
 }
 
 #[derive(Args, Clone, Debug)]
 pub(crate) struct CompareArgs {
     /// Scene (.toml), mesh or baked body to use instead of a built-in scene
-    #[arg(value_name = "FILE", conflicts_with = "scene")]
+    #[arg(value_name = "FILE", conflicts_with_all = ["scene", "write"])]
     pub(crate) file: Option<PathBuf>,
 
     /// Built-in scene, simulated up to its first break [default: glass]
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", conflicts_with = "write")]
     pub(crate) scene: Option<String>,
 
     /// Random seed for the weak points, the roughness of the cracks and the Voronoi sites [default: the scene's own]
@@ -180,19 +141,25 @@ pub(crate) struct CompareArgs {
     #[arg(long, value_name = "N")]
     pub(crate) cells: Option<usize>,
 
-    /// Folder for the results, created if it does not exist
-    #[arg(long, default_value = "out", value_name = "DIR")]
-    pub(crate) out: PathBuf,
+    /// Also draw the pieces of each method into this file (PNG)
+    #[arg(long, value_name = "FILE", conflicts_with = "write")]
+    pub(crate) picture: Option<PathBuf>,
 
-    /// Print the report as JSON instead of a table
-    #[arg(long)]
-    pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) write: Write,
+}
 
-    /// Write no picture
-    #[arg(long)]
-    pub(crate) no_pictures: bool,
+#[derive(Args, Clone, Debug)]
+pub(crate) struct GalleryArgs {
+    /// Scenes to draw [default: all scenes of the gallery]
+    #[arg(value_name = "SCENE")]
+    pub(crate) scenes: Vec<String>,
 
-    /// Compare the methods on several built-in scenes instead, and write compare.md and its pictures to this folder
-    #[arg(long, value_name = "DIR", conflicts_with_all = ["file", "scene", "seed", "methods", "json", "no_pictures"])]
-    pub(crate) write: Option<PathBuf>,
+    /// Make the film of five breaks (hero.webp) instead
+    #[arg(long, conflicts_with = "scenes")]
+    pub(crate) hero: bool,
+
+    /// Folder for the pictures, created if it does not exist
+    #[arg(long, default_value = "docs/gallery", value_name = "DIR")]
+    pub(crate) write: PathBuf,
 }

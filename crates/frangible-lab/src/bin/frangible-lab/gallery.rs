@@ -3,9 +3,9 @@
 //! The sheets are those of `frangible break`, drawn by following light, made smaller and written as JPEG: at a quality of 90 and with all
 //! colours a sheet takes 80 to 200 kB and looks as it did; as a PNG it takes 400 to 980 kB, and with a palette of 256 colours 320 to 510 kB.
 
-use std::error::Error;
 use std::path::Path;
 
+use frangible_lab::Result;
 use frangible_photo::{
     FilmFormat, FilmWriter, Picture, SheetOptions, SlowMotion, Studio, contact_sheet,
 };
@@ -40,7 +40,7 @@ const FILM_QUALITY: f32 = 80.0;
 /// Pictures over which one scene goes over into the next.
 const FADE: usize = 4;
 
-pub(crate) fn run(args: &GalleryArgs) -> Result<(), Box<dyn Error>> {
+pub(crate) fn run(args: &GalleryArgs) -> Result<()> {
     make_folder(&args.write, &[], "--write")?;
     if args.hero {
         return film(&args.write.join("hero.webp"));
@@ -69,8 +69,8 @@ pub(crate) fn run(args: &GalleryArgs) -> Result<(), Box<dyn Error>> {
 }
 
 /// A built-in scene, as `frangible break` plays it.
-fn played(name: &str) -> Result<Run, Box<dyn Error>> {
-    let bar = Bar::new(false);
+fn played(name: &str) -> Result<Run> {
+    let bar = Bar::new();
     let scene = scene(name)?;
     let baked = bake_with(&scene, |p| bar.show(name, 0.5 * p.fraction))?;
     Ok(play(&scene, &baked, &mut |share| {
@@ -79,7 +79,7 @@ fn played(name: &str) -> Result<Run, Box<dyn Error>> {
 }
 
 /// Five breaks, one after the other, by following light.
-fn film(path: &Path) -> Result<(), Box<dyn Error>> {
+fn film(path: &Path) -> Result<()> {
     let studio = Studio::new(FRAME[0], FRAME[1])?;
     let mut film = FilmWriter::begin(path, FilmFormat::WebP, FRAME, RATE)?;
     film.set_quality(FRAME, FILM_QUALITY)?;
@@ -89,7 +89,7 @@ fn film(path: &Path) -> Result<(), Box<dyn Error>> {
         let run = played(name)?;
         let recording = &run.recording;
         let clock = SlowMotion::new(recording, SECONDS, slow);
-        let bar = Bar::new(false);
+        let bar = Bar::new();
         for picture in 0..count {
             let done = (number * count + picture) as f64 / (FILM.len() * count) as f64;
             bar.show(name, done);

@@ -1,12 +1,15 @@
-//! Destinations of results: standard output, progress on the terminal, and pages with their pictures.
+//! Destinations of results: standard output, progress on the terminal, and data with the pages that quote it.
 
-use std::error::Error;
-use std::io::{self, ErrorKind, IsTerminal, Write};
+use std::io::{self, ErrorKind, IsTerminal, Write as _};
 use std::path::Path;
 use std::sync::atomic::{AtomicU32, Ordering};
 
+use frangible_lab::data::{self, Measures};
+use frangible_lab::{Result, page};
 use frangible_recording::{make_folder, write_atomically};
-use serde_json::json;
+use serde::Serialize;
+
+use crate::args::Write;
 
 /// Writes text; a reader that has seen enough (`frangible-lab verify | head`) is no error.
 pub(crate) fn say(text: &str) -> io::Result<()> {
@@ -25,10 +28,11 @@ pub(crate) struct Bar {
 }
 
 impl Bar {
-    pub(crate) fn new(quiet: bool) -> Self {
-        let shown = !quiet && io::stderr().is_terminal();
-        let percent = AtomicU32::new(u32::MAX);
-        Self { shown, percent }
+    pub(crate) fn new() -> Self {
+        Self {
+            shown: io::stderr().is_terminal(),
+            percent: AtomicU32::new(u32::MAX),
+        }
     }
 
     /// Shows the current step, and the share of the command that is done.
@@ -48,69 +52,52 @@ impl Drop for Bar {
     }
 }
 
-/// A page of the documentation and the folder of its pictures beside it.
-pub(crate) struct Page<'a> {
-    folder: Option<&'a Path>,
+/// The place of a measurement: a file of data, or standard output.
+pub(crate) struct Place<'a> {
+    docs: Option<&'a Path>,
     name: &'static str,
-    pictures: &'static str,
+    measures: Measures,
 }
 
-impl<'a> Page<'a> {
-    /// Makes the folders, so that a place that cannot be written is refused before minutes are spent.
-    pub(crate) fn new(
-        folder: Option<&'a Path>,
-        name: &'static str,
-        pictures: &'static str,
-    ) -> Result<Self, String> {
-        if let Some(folder) = folder {
-            make_folder(folder, &[name.into()], "--write")?;
-            make_folder(&folder.join(pictures), &[], "--write")?;
+impl<'a> Place<'a> {
+    /// Makes the folder, so that a place that cannot be written is refused before minutes are spent.
+    pub(crate) fn new(args: &'a Write, name: &'static str, measures: Measures) -> Result<Self> {
+        let docs = args.write.as_deref();
+        if let Some(docs) = docs {
+            make_folder(&docs.join("data"), &[format!("{name}.json")], "--write")?;
         }
         Ok(Self {
-            folder,
+            docs,
             name,
-            pictures,
+            measures,
         })
     }
 
-    /// Writes the page and its pictures, by name and PNG bytes, where a folder was asked for. Returns the files.
-    pub(crate) fn write(
-        &self,
-        text: &str,
-        pictures: &[(String, Vec<u8>)],
-    ) -> Result<Vec<String>, Box<dyn Error>> {
-        let Some(folder) = self.folder else {
-            return Ok(Vec::new());
+    /// Writes the measurement and fills the pages that quote it, or prints it. `machine`: true if it has times.
+    pub(crate) fn put(&self, machine: bool, found: &impl Serialize) -> Result<()> {
+        let stored = data::stored(self.measures, machine, found)?;
+        let Some(docs) = self.docs else {
+            return Ok(say(&format!("{stored:#}\n"))?);
         };
-        let mut files = Vec::new();
-        let mut put = |name: String, bytes: &[u8]| -> Result<(), Box<dyn Error>> {
-            let path = folder.join(name);
-            write_atomically(&path, bytes)?;
-            files.push(path.display().to_string());
-            Ok(())
-        };
-        put(self.name.into(), text.as_bytes())?;
-        for (name, png) in pictures {
-            put(format!("{}/{name}.png", self.pictures), png)?;
-        }
-        Ok(files)
+        let path = data::write(docs, self.name, &stored)?;
+        say(&format!("wrote {}\n", path.display()))?;
+        fill_pages(docs)
     }
+}
 
-    /// Writes the page, and reports its contents and the written files, with `json` for programs.
-    pub(crate) fn tell(
-        &self,
-        page: frangible_lab::page::Page,
-        json: bool,
-    ) -> Result<(), Box<dyn Error>> {
-        let files = self.write(&page.text, &page.pictures)?;
-        if json {
-            let told = json!({ "page": page.text, "files": files });
-            return Ok(say(&format!("{told:#}\n"))?);
+/// Fills the quotations in all pages of a folder.
+pub(crate) fn fill_pages(docs: &Path) -> Result<()> {
+    for entry in std::fs::read_dir(docs).map_err(|e| format!("`{}`: {e}", docs.display()))? {
+        let path = entry?.path();
+        if path.extension().is_none_or(|ending| ending != "md") {
+            continue;
         }
-        let mut text = page.text;
-        for file in files {
-            text.push_str(&format!("wrote {file}\n"));
+        let old = std::fs::read_to_string(&path)?;
+        let new = page::filled(&old, docs).map_err(|e| format!("`{}`: {e}", path.display()))?;
+        if new != old {
+            write_atomically(&path, new.as_bytes())?;
+            say(&format!("filled {}\n", path.display()))?;
         }
-        Ok(say(&text)?)
     }
+    Ok(())
 }

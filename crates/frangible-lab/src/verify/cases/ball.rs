@@ -4,26 +4,16 @@ use std::f64::consts::{PI, TAU};
 
 use frangible_bake::{BakeError, Baked, bake_with};
 
-use crate::verify::case::{Case, Findings};
-use crate::verify::check::{Check, hertz};
+use crate::verify::case::Findings;
+use crate::verify::check::checks;
 use crate::verify::models::{GLASS, ball, root};
 
 const RADIUS: f64 = 0.05;
 
-pub(crate) const CASE: Case = Case {
-    name: "ball",
-    title: "Solid ball",
-    about: "A glass ball of 50 mm radius by its signed distance, through the whole bake: filled with tetrahedra, its modes on \
-        a lattice of quadratic elements that covers it. The gravest modes of a ball are ₀T₂, a twist of one half against the \
-        other, and ₀S₂, the football mode, five of each; on a mesh without the ball's symmetry the five spread a little: the \
-        lowest and highest are compared.",
-    compute,
-};
-
 const LAMB: &str = "H. Lamb, Proc. London Math. Soc. 13, 189 (1882)";
 
-fn compute(progress: &mut dyn FnMut(f64)) -> Result<Findings, BakeError> {
-    let Baked { asset, report } = bake_with(&ball(RADIUS, &GLASS, None), |p| progress(p.fraction))?;
+pub(super) fn compute() -> Result<Findings, BakeError> {
+    let Baked { asset, report } = bake_with(&ball(RADIUS, &GLASS, None), |_| {})?;
     let shear_speed = (GLASS.lame().1 / GLASS.density).sqrt();
     let of = |root: f64| root * shear_speed / (RADIUS * TAU);
     let (twist, football) = (
@@ -31,21 +21,13 @@ fn compute(progress: &mut dyn FnMut(f64)) -> Result<Findings, BakeError> {
         of(spheroidal_root(GLASS.poisson_ratio)),
     );
     let found = &report.frequencies;
-    let check =
-        |name: &str, mode: usize, reference: f64| hertz(name, found[mode], reference, 0.02, LAMB);
-    Ok(vec![
-        check("₀T₂, lowest of five", 0, twist),
-        check("₀T₂, highest of five", 4, twist),
-        check("₀S₂, lowest of five", 5, football),
-        check("₀S₂, highest of five", 9, football),
-        Check {
-            name: "mass".into(),
-            reference: GLASS.density * 4.0 / 3.0 * PI * RADIUS.powi(3),
-            value: asset.mass().mass,
-            tolerance: 0.01,
-            unit: "kg",
-            source: "4/3 π r³ ρ",
-        },
+    let mass = GLASS.density * 4.0 / 3.0 * PI * RADIUS.powi(3);
+    Ok(checks![
+        "₀T₂, lowest of five", "Hz", found[0] => twist, 0.02, LAMB;
+        "₀T₂, highest of five", "Hz", found[4] => twist, 0.02, LAMB;
+        "₀S₂, lowest of five", "Hz", found[5] => football, 0.02, LAMB;
+        "₀S₂, highest of five", "Hz", found[9] => football, 0.02, LAMB;
+        "mass", "kg", asset.mass().mass => mass, 0.01, "4/3 π r³ ρ";
     ]
     .into())
 }

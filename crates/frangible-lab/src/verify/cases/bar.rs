@@ -7,23 +7,12 @@ use frangible_bake::eigen::Modes;
 use frangible_bake::fem::{Elasticity, System};
 use frangible_bake::{BakeError, Shape};
 
-use crate::verify::case::{Case, Findings};
-use crate::verify::check::hertz;
+use crate::verify::case::Findings;
+use crate::verify::check::checks;
 use crate::verify::models::{GLASS, covered, free_modes, quadratic, root};
 
 const LENGTH: f64 = 0.5;
 const SIDE: f64 = 0.03;
-
-pub(crate) const CASE: Case = Case {
-    name: "bar",
-    title: "Free bar",
-    about: "A square glass bar, 500 × 30 × 30 mm (E 70 GPa, ν 0.23, ρ 2500 kg/m³). Bending: Timoshenko's beam, with rotary inertia \
-        and shear (Euler and Bernoulli's is 1.3 % higher here). Stretching: c/(2L) with c = √(E/ρ); the lateral motion that the \
-        formula leaves out lowers it by some per mille. Twisting: √(μJ/(ρI_p))/(2L) with J = 0.1406 a⁴. *Mesh*: quadratic elements \
-        15 mm long, two layers, with lumped mass (HRZ); two layers give too large a moment of inertia to a twist, \
-        hence the wider tolerance there. *Lattice*: about 1000 elements of a covering lattice, consistent mass.",
-    compute,
-};
 
 const BEAM: &str = "Timoshenko's beam; T. C. Huang, J. Appl. Mech. 28, 579 (1961); shear coefficient of Cowper (1966)";
 const TORSION: &str = "Saint-Venant; Timoshenko and Goodier, Theory of Elasticity, §109";
@@ -32,7 +21,7 @@ const ROD: &str = "wave equation of a thin rod";
 /// Number of modes.
 const WANTED: usize = 12;
 
-fn compute(progress: &mut dyn FnMut(f64)) -> Result<Findings, BakeError> {
+pub(super) fn compute() -> Result<Findings, BakeError> {
     let bar = Shape::rod(LENGTH, SIDE);
     let [first, second] = [0, 1].map(|n| timoshenko(&GLASS, n));
     // J / I_p = 0.1406 · 6.
@@ -50,24 +39,16 @@ fn compute(progress: &mut dyn FnMut(f64)) -> Result<Findings, BakeError> {
             wave(p) * DVec3::X.cross(p - DVec3::new(p.x, 0.5 * SIDE, 0.5 * SIDE))
         });
         let stretching = most_like(&modes, &system, |p| wave(p) * DVec3::X);
-        let mut check = |name: &str, mode: Option<usize>, reference, tolerance, source| {
-            // NaN where there is no such mode: the check fails.
-            let found = mode.map_or(f64::NAN, |i| modes.frequency(i));
-            checks.push(hertz(
-                format!("{name}, {what}"),
-                found,
-                reference,
-                tolerance,
-                source,
-            ));
-        };
-        check("first bending", Some(0), first, 0.01, BEAM);
-        check("first bending across", Some(1), first, 0.01, BEAM);
-        check("second bending", Some(2), second, 0.01, BEAM);
-        check("twisting", twisting, torsion, torsion_tolerance, TORSION);
-        check("stretching", stretching, rod, 0.01, ROD);
+        let found = |mode: Option<usize>| mode.map_or(f64::NAN, |i| modes.frequency(i));
+        let named = |name: &str| format!("{name}, {what}");
+        checks.extend(checks![
+            named("first bending"), "Hz", modes.frequency(0) => first, 0.01, BEAM;
+            named("first bending across"), "Hz", modes.frequency(1) => first, 0.01, BEAM;
+            named("second bending"), "Hz", modes.frequency(2) => second, 0.01, BEAM;
+            named("twisting"), "Hz", found(twisting) => torsion, torsion_tolerance, TORSION;
+            named("stretching"), "Hz", found(stretching) => rod, 0.01, ROD;
+        ]);
     }
-    progress(1.0);
     Ok(checks.into())
 }
 

@@ -5,29 +5,18 @@ use frangible_bake::eigen::{residual, rigid_motions};
 use frangible_bake::fem::{Cover, System, assemble_cover};
 use frangible_bake::{BakeError, MeshSize, Shape};
 
-use crate::verify::case::{Case, Findings};
-use crate::verify::check::{Check, number};
+use crate::verify::case::Findings;
+use crate::verify::check::{Check, check, checks};
 use crate::verify::models::{GLASS, free_modes, linear, norm, quadratic};
 
 /// Modes of the bowl.
 const WANTED: usize = 60;
 
-pub(crate) const CASE: Case = Case {
-    name: "basis",
-    title: "Modal basis",
-    about: "Sixty modes of a free bowl: mass-normalised, Φᵀ M Φ = I, without any rigid motion, and solutions: the residual \
-        ‖Kφ − λMφ‖ of each stays below max(10⁻⁸ ‖Kφ‖, 10 ε ‖|K||φ|‖), the second being what rounding alone may leave; it \
-        is given in units of that limit. And the dense spectrum of K of a small block has six null eigenvalues, no \
-        more, whatever the elements: those below 10⁻⁹ of the largest are counted.",
-    compute,
-};
-
 const DEFINITION: &str = "definition";
 
-fn compute(progress: &mut dyn FnMut(f64)) -> Result<Findings, BakeError> {
+pub(super) fn compute() -> Result<Findings, BakeError> {
     let system = quadratic(&Shape::bowl(), 0.012, 1, &GLASS)?;
     let modes = free_modes(&system, WANTED)?;
-    progress(0.6);
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
     let motions = rigid_motions(&system);
     let (mut off_identity, mut rigid, mut worst) = (0.0_f64, 0.0_f64, 0.0_f64);
@@ -44,28 +33,10 @@ fn compute(progress: &mut dyn FnMut(f64)) -> Result<Findings, BakeError> {
         let (residual, limit) = residual(&system, modes.eigenvalues[i], modes.shape(i));
         worst = worst.max(residual / limit);
     }
-    let mut checks = vec![
-        number(
-            "largest entry of Φᵀ M Φ − I",
-            off_identity,
-            0.0,
-            1e-8,
-            DEFINITION,
-        ),
-        number(
-            "largest rigid share of a mode",
-            rigid,
-            0.0,
-            1e-9,
-            DEFINITION,
-        ),
-        number(
-            "largest residual, in limits",
-            worst,
-            0.0,
-            1.0,
-            "backward error in f64",
-        ),
+    let mut checks = checks![
+        "largest entry of Φᵀ M Φ − I", "", off_identity => 0.0, 1e-8, DEFINITION;
+        "largest rigid share of a mode", "", rigid => 0.0, 1e-9, DEFINITION;
+        "largest residual, in limits", "", worst => 0.0, 1.0, "backward error in f64";
     ];
     let block = Shape::block([0.1, 0.08, 0.05]);
     let body = block.analysis_mesh(MeshSize {
@@ -83,7 +54,6 @@ fn compute(progress: &mut dyn FnMut(f64)) -> Result<Findings, BakeError> {
     for (name, system) in &systems {
         checks.push(null_modes(name, system));
     }
-    progress(1.0);
     Ok(checks.into())
 }
 
@@ -104,11 +74,12 @@ fn null_modes(name: &str, system: &System) -> Check {
     let values = values.unwrap_or_default();
     let largest = norm(&values);
     let null = values.iter().filter(|v| v.abs() < 1e-9 * largest).count();
-    number(
+    let source = "three shifts and three turns";
+    check(
         format!("null modes, {name}"),
-        null as f64,
-        6.0,
+        "",
+        [null as f64, 6.0],
         0.0,
-        "three shifts and three turns",
+        source,
     )
 }

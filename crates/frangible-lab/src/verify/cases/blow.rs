@@ -10,20 +10,8 @@ use frangible_bake::{BakeError, Shape};
 
 use crate::verify::blows::probe::{BALL, PLATE, ball, blow, body, material, solid, wide_plate};
 use crate::verify::blows::strike::{self, Strike};
-use crate::verify::case::{Case, Findings};
-use crate::verify::check::{Check, number};
-
-pub(crate) const CASE: Case = Case {
-    name: "blow",
-    title: "A blow, integrated",
-    about: "A striker is integrated against the modes of a body, the wall oscillators and Hertz' spring. On a plate of PMMA \
-        (200 × 200 × 1 mm, simply supported, 100 modes, Kirchhoff's waves) it meets Zener's infinite plate, a dashpot 8 √(Dμ) behind Hertz' spring, until the first echo: force over \
-        time, and restitution over λ = m/(Z T), T = (m/(K √v))^(2/5), of steel balls of several sizes (1 m/s). On a heavy block of glass \
-        (50 mm, ball of 1 mm at 5 m/s) it is Hertz' blow, on the end of a free rod of glass (400 × 4 × 4 mm, a striker of the \
-        rod's mass) St Venant's: its waves come back before the striker leaves. Reference: both laws with Hertz' spring, by Runge and Kutta. \
-        Without damping, what the striker loses is in modes and oscillators: the share that is missing, by substep.",
-    compute,
-};
+use crate::verify::case::Findings;
+use crate::verify::check::{Check, check, checks};
 
 const ZENER: &str = "C. Zener, Phys. Rev. 59, 669 (1941)";
 const HERTZ: &str = "H. Hertz (1882); Johnson, Contact Mechanics, §11.4";
@@ -38,21 +26,14 @@ const RESTITUTION: [(f64, f64); 5] = [
     (2.0, 0.021),
 ];
 
-fn compute(progress: &mut dyn FnMut(f64)) -> Result<Findings, BakeError> {
+pub(super) fn compute() -> Result<Findings, BakeError> {
     let plate = wide_plate()?;
-    progress(0.5);
     let mut checks = zener(&plate)?;
     checks.extend(restitution(&plate)?);
-    progress(0.7);
     checks.extend(block()?);
     checks.extend(rod()?);
     checks.extend(energy(&plate)?);
-    progress(1.0);
     Ok(checks.into())
-}
-
-fn unit(unit: &'static str, check: Check) -> Check {
-    Check { unit, ..check }
 }
 
 /// Hertz' spring between a steel ball and a flat body of this material, N/m^1.5.
@@ -103,23 +84,12 @@ pub(crate) fn force_on_plate(
 fn zener(plate: &Asset) -> Result<Vec<Check>, BakeError> {
     let times = [10e-6, 30e-6, 60e-6, 100e-6];
     let (rows, peak) = force_on_plate(plate, &thin(), &times)?;
-    let mut checks = vec![unit(
-        "N",
-        number("4 mm at 20 m/s: peak force", peak[0], peak[1], 0.03, ZENER),
-    )];
-    checks.extend(times.iter().zip(rows).map(|(&t, [found, exact])| {
+    let mut checks = checks!["4 mm at 20 m/s: peak force", "N", peak[0] => peak[1], 0.03, ZENER;];
+    checks.extend(times.iter().zip(rows).map(|(&t, pair)| {
         // 5 % of the last are 1 % of the peak.
         let tolerance = if t < 80e-6 { 0.03 } else { 0.06 };
-        unit(
-            "N",
-            number(
-                format!("4 mm at 20 m/s: force after {:.0} µs", 1e6 * t),
-                found,
-                exact,
-                tolerance,
-                ZENER,
-            ),
-        )
+        let name = format!("4 mm at 20 m/s: force after {:.0} µs", 1e6 * t);
+        check(name, "N", pair, tolerance, ZENER)
     }));
     Ok(checks)
 }
@@ -160,13 +130,10 @@ fn restitution(plate: &Asset) -> Result<Vec<Check>, BakeError> {
         let [found, exact] = restitution_at(plate, inelasticity, &thin())?;
         for (what, value) in [("", found), (", law integrated", exact)] {
             // To the digits of the table; of the nearly swallowed ball a share of the speed is what counts.
-            checks.push(number(
-                format!("restitution at λ = {inelasticity}{what}: speed kept more than Zener's {published}"),
-                value - published,
-                0.0,
-                0.01,
-                ZENER,
-            ));
+            let name = format!(
+                "restitution at λ = {inelasticity}{what}: speed kept more than Zener's {published}"
+            );
+            checks.push(check(name, "", [value - published, 0.0], 0.01, ZENER));
         }
     }
     Ok(checks)
@@ -191,34 +158,10 @@ fn block() -> Result<Vec<Check>, BakeError> {
     let report = &found.reports()[0];
     // ½ m v² = 2/5 K δ^2.5; 2.9432 δ/v.
     let deepest = (1.25 * mass * SPEED * SPEED / k).powf(0.4);
-    Ok(vec![
-        unit(
-            "s",
-            number(
-                "heavy block: duration",
-                report.duration,
-                2.9432 * deepest / SPEED,
-                0.01,
-                HERTZ,
-            ),
-        ),
-        unit(
-            "N",
-            number(
-                "heavy block: peak force",
-                report.peak_force,
-                k * deepest.powf(1.5),
-                0.01,
-                HERTZ,
-            ),
-        ),
-        number(
-            "heavy block: restitution",
-            report.departure_speed / SPEED,
-            1.0,
-            0.01,
-            HERTZ,
-        ),
+    Ok(checks![
+        "heavy block: duration", "s", report.duration => 2.9432 * deepest / SPEED, 0.01, HERTZ;
+        "heavy block: peak force", "N", report.peak_force => k * deepest.powf(1.5), 0.01, HERTZ;
+        "heavy block: restitution", "", report.departure_speed / SPEED => 1.0, 0.01, HERTZ;
     ])
 }
 
@@ -253,46 +196,20 @@ fn rod() -> Result<Vec<Check>, BakeError> {
     let report = &found.reports()[0];
     // The striker's own speed in the end, from the impulse that it gave.
     let restitution = report.impulse / (mass * SPEED) - 1.0;
-    let mut checks = vec![
-        unit(
-            "N",
-            number(
-                "rod hit at its end: peak force",
-                report.peak_force,
-                exact.peak(),
-                0.05,
-                ST_VENANT,
-            ),
-        ),
-        unit(
-            "s",
-            number(
-                "rod hit at its end: duration",
-                report.duration,
-                exact.duration(),
-                0.05,
-                ST_VENANT,
-            ),
-        ),
-        number(
-            "rod hit at its end: share of the speed the striker leaves with",
-            restitution,
-            exact.restitution,
-            0.05,
-            ST_VENANT,
-        ),
+    let mut checks = checks![
+        "rod hit at its end: peak force", "N", report.peak_force => exact.peak(), 0.05, ST_VENANT;
+        "rod hit at its end: duration", "s", report.duration => exact.duration(), 0.05, ST_VENANT;
+        "rod hit at its end: share of the speed the striker leaves with", "", restitution => exact.restitution, 0.05, ST_VENANT;
     ];
     for share in [0.5, 1.0, 1.5] {
         let t = share * 2.0 * LENGTH / celerity;
-        checks.push(unit(
+        let name = format!("rod hit at its end: force after {share} times the way there and back");
+        checks.push(check(
+            name,
             "N",
-            number(
-                format!("rod hit at its end: force after {share} times the way there and back"),
-                force_at(&found, t),
-                exact.at(t),
-                0.05,
-                ST_VENANT,
-            ),
+            [force_at(&found, t), exact.at(t)],
+            0.05,
+            ST_VENANT,
         ));
     }
     Ok(checks)
@@ -310,27 +227,10 @@ fn energy(plate: &Asset) -> Result<Vec<Check>, BakeError> {
     const SOURCE: &str = "conservation of energy";
     let coarse = missing(plate, Some(200e-9))?;
     let fine = missing(plate, Some(100e-9))?;
-    Ok(vec![
-        number(
-            "energy missing, default substep",
-            missing(plate, None)?,
-            0.0,
-            1e-4,
-            SOURCE,
-        ),
-        number(
-            "energy missing, substep of 50 ns",
-            missing(plate, Some(50e-9))?,
-            0.0,
-            1.5e-6,
-            SOURCE,
-        ),
-        number(
-            "energy missing, 200 ns over 100 ns",
-            coarse / fine,
-            4.0,
-            0.2,
-            SOURCE,
-        ),
+    let (own, finest) = (missing(plate, None)?, missing(plate, Some(50e-9))?);
+    Ok(checks![
+        "energy missing, default substep", "", own => 0.0, 1e-4, SOURCE;
+        "energy missing, substep of 50 ns", "", finest => 0.0, 1.5e-6, SOURCE;
+        "energy missing, 200 ns over 100 ns", "", coarse / fine => 4.0, 0.2, SOURCE;
     ])
 }

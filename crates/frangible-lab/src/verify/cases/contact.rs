@@ -8,10 +8,10 @@ use frangible::internals::DurationModel;
 use frangible::internals::contact::{contact_duration, hertz_duration, modal_load, pulse};
 use frangible::{Breakable, Contact, FractureConfig, Striker};
 use frangible_bake::fem::Elasticity;
-use frangible_bake::{BakeError, bake_with};
+use frangible_bake::{BakeError, bake};
 
-use crate::verify::case::{Case, Findings};
-use crate::verify::check::{Check, number};
+use crate::verify::case::Findings;
+use crate::verify::check::checks;
 use crate::verify::models::ball;
 use crate::verify::ode::integrate;
 
@@ -25,17 +25,7 @@ const STEEL: Elasticity = Elasticity {
     density: 7850.0,
 };
 
-pub(crate) const CASE: Case = Case {
-    name: "contact",
-    title: "Contact",
-    about: "Two steel spheres (E 200 GPa, ν 0.29, ρ 7850 kg/m³) of 25 and 10 mm radius meet at 3 m/s. Hertz: the force is 4/3 E* √R* δ^(3/2), \
-        so the contact lasts 2.868 (m*²/(E*² R* v))^(1/5). The constant is 2 √π Γ(7/5)/Γ(9/10) (15/16)^(2/5); the law is \
-        integrated as well. Then the larger sphere is baked and hit: duration, curvature and effective mass come from its mesh. \
-        Its half-sine pulse carries the impulse φ: ∫ f dt by Simpson's rule.",
-    compute,
-};
-
-fn compute(progress: &mut dyn FnMut(f64)) -> Result<Findings, BakeError> {
+pub(super) fn compute() -> Result<Findings, BakeError> {
     let (e, nu) = (STEEL.youngs_modulus, STEEL.poisson_ratio);
     let masses = RADII.map(|r| STEEL.density * 4.0 / 3.0 * PI * r.powi(3));
     let mass = 1.0 / (1.0 / masses[0] + 1.0 / masses[1]);
@@ -43,32 +33,8 @@ fn compute(progress: &mut dyn FnMut(f64)) -> Result<Findings, BakeError> {
     let modulus = e / (2.0 * (1.0 - nu * nu));
     let given = hertz_duration(mass, modulus, radius, SPEED);
     let exact = exact_constant() * (mass * mass / (modulus * modulus * radius * SPEED)).powf(0.2);
-    let seconds = |name: &str, value: f64, reference: f64, tolerance: f64, source| Check {
-        unit: "s",
-        ..number(name, value, reference, tolerance, source)
-    };
-    let mut checks = vec![
-        seconds(
-            "duration, two spheres",
-            given,
-            exact,
-            2e-4,
-            "H. Hertz (1882); Johnson, Contact Mechanics, Eq. 11.24",
-        ),
-        seconds(
-            "the same, law integrated",
-            given,
-            integrated(mass, modulus, radius),
-            2e-4,
-            "adaptive Runge–Kutta, rtol 10⁻¹⁰",
-        ),
-    ];
-    // The duration asks nothing of the modes: few elements will do.
     let coarse = Some(0.5 * RADII[0]);
-    let asset = bake_with(&ball(RADII[0], &STEEL, coarse), |p| {
-        progress(0.9 * p.fraction);
-    })?
-    .asset;
+    let asset = bake(&ball(RADII[0], &STEEL, coarse))?;
     let striker = Striker::rigid()
         .with_contact_modulus(e / (1.0 - nu * nu))
         .with_effective_mass(masses[1])
@@ -82,31 +48,18 @@ fn compute(progress: &mut dyn FnMut(f64)) -> Result<Findings, BakeError> {
         .body(1);
     let load = modal_load(&body, &[hit]);
     let duration = contact_duration(&asset, &load, DurationModel::Hertz);
-    checks.push(seconds(
-        "duration, baked sphere",
-        duration,
-        exact,
-        0.02,
-        "the same, from a mesh",
-    ));
     let pulse = pulse(&asset, &load, duration, &FractureConfig::default());
     let force = |t: f64| pulse.amplitude * (pulse.frequency() * t).sin();
-    checks.push(number(
-        "∫ f dt / φ",
-        simpson(force, pulse.duration),
-        1.0,
-        1e-12,
-        "momentum",
-    ));
-    checks.push(number(
-        "steps of the pulse × Δt / t_d",
-        pulse.contact_steps as f64 * pulse.time_step / pulse.duration,
-        1.0,
-        1e-12,
-        "no step straddles the end",
-    ));
-    progress(1.0);
-    Ok(checks.into())
+    let steps = pulse.contact_steps as f64 * pulse.time_step / pulse.duration;
+    let law = integrated(mass, modulus, radius);
+    Ok(checks![
+        "duration, two spheres", "s", given => exact, 2e-4, "H. Hertz (1882); Johnson, Contact Mechanics, Eq. 11.24";
+        "the same, law integrated", "s", given => law, 2e-4, "adaptive Runge–Kutta, rtol 10⁻¹⁰";
+        "duration, baked sphere", "s", duration => exact, 0.02, "the same, from a mesh";
+        "∫ f dt / φ", "", simpson(force, pulse.duration) => 1.0, 1e-12, "momentum";
+        "steps of the pulse × Δt / t_d", "", steps => 1.0, 1e-12, "no step straddles the end";
+    ]
+    .into())
 }
 
 /// 2 √π Γ(7/5)/Γ(9/10) (15/16)^(2/5).

@@ -1,15 +1,46 @@
-//! The cases, one file each.
+//! Cases with known answers, one file each.
 
-pub(crate) mod ball;
-pub(crate) mod bar;
-pub(crate) mod basis;
-pub(crate) mod block;
+mod ball;
+mod bar;
+mod basis;
+mod block;
 pub(crate) mod blow;
-pub(crate) mod cantilever;
-pub(crate) mod contact;
-pub(crate) mod convergence;
+mod cantilever;
+mod contact;
+mod convergence;
 pub(crate) mod near_field;
-pub(crate) mod oscillator;
-pub(crate) mod plate;
-pub(crate) mod scaling;
-pub(crate) mod two_bodies;
+mod oscillator;
+mod plate;
+mod scaling;
+mod two_bodies;
+
+use crate::verify::case::Case;
+
+/// All cases, in the order of the report.
+pub const CASES: [Case; 13] = [
+    Case::new("bar", "Free bar", bar::compute),
+    Case::new("plate", "Free square plate", plate::compute),
+    Case::new("block", "Free block", block::compute),
+    Case::new("ball", "Solid ball", ball::compute),
+    Case::new("cantilever", "Cantilever", cantilever::compute),
+    Case::new(
+        "convergence",
+        "Convergence: linear against quadratic elements",
+        convergence::compute,
+    ),
+    Case::new("basis", "Modal basis", basis::compute),
+    Case::new("scaling", "Scaling laws", scaling::compute),
+    Case::new(
+        "oscillator",
+        "One mode under a half-sine",
+        oscillator::compute,
+    ),
+    Case::new("contact", "Contact", contact::compute),
+    Case::new("near-field", "Near field of a blow", near_field::compute),
+    Case::new("blow", "A blow, integrated", blow::compute),
+    Case::new(
+        "two-bodies",
+        "Two bodies that both vibrate",
+        two_bodies::compute,
+    ),
+];

@@ -8,20 +8,8 @@ use crate::verify::blows::plate::Terms;
 use crate::verify::blows::probe::{
     self, BALL, PLATE, Place, about, ball, body, felt, following, places,
 };
-use crate::verify::case::{Case, Findings};
-use crate::verify::check::{Check, number};
-
-pub(crate) const CASE: Case = Case {
-    name: "near-field",
-    title: "Near field of a blow",
-    about: "A steel ball of 4 mm hits the middle of a plate of PMMA (100 × 100 × 1 mm, simply supported) at 20 m/s. The force is the one \
-        that the integrated blow found, and its contact radius too; the reference is the double series of all modes of the plate under \
-        this force, spread as Hertz' pressure. Radial, hoop and total stress of the far face are compared outside the contact, along a \
-        side and along a diagonal, a little before the peak of the force, at it and at half of it thereafter; the hoop stress at places is that at the peak. *Thin*: Kirchhoff's \
-        plate and waves; *layer*: the default. 4 % of 100 modes: the elements, 2 mm, are off by that much for the shortest of them \
-        (with 3 mm it is 7 %). Tensions of a steady load on 0.2 thicknesses are held to an exact elastic layer by a test of the library, within 1 %.",
-    compute,
-};
+use crate::verify::case::Findings;
+use crate::verify::check::{Check, check};
 
 const SERIES: &str = "Navier's series of a thin plate, all modes";
 const LAYER: &str = "the series with Mindlin's frequencies and an elastic layer's far face";
@@ -29,9 +17,8 @@ const LAYER: &str = "the series with Mindlin's frequencies and an elastic layer'
 /// Distances from the contact, m.
 pub(crate) const DISTANCES: [f64; 5] = [1e-3, 2e-3, 4e-3, 8e-3, 16e-3];
 
-fn compute(progress: &mut dyn FnMut(f64)) -> Result<Findings, BakeError> {
+pub(super) fn compute() -> Result<Findings, BakeError> {
     let asset = probe::plate()?;
-    progress(0.6);
     let mut checks = Vec::new();
     for (theory, terms, source, name) in [
         (PlateTheory::Kirchhoff, Terms::Thin, SERIES, "thin"),
@@ -45,7 +32,6 @@ fn compute(progress: &mut dyn FnMut(f64)) -> Result<Findings, BakeError> {
             checks.extend(compared.checks(&format!("{name}, {modes} modes"), tolerance, source));
         }
     }
-    progress(1.0);
     Ok(checks.into())
 }
 
@@ -106,10 +92,7 @@ impl Compared {
     fn checks(&self, name: &str, tolerance: f64, source: &'static str) -> Vec<Check> {
         let largest = |what: &str, of: fn([f64; 2]) -> f64| {
             let name = format!("{name}: {what}, largest difference over its peak");
-            Check {
-                unit: "%",
-                ..number(name, 100.0 * self.error(of), 0.0, tolerance, source)
-            }
+            check(name, "%", [100.0 * self.error(of), 0.0], tolerance, source)
         };
         let mut checks = vec![
             largest("total stress", |s| s[0] + s[1]),
@@ -120,10 +103,7 @@ impl Compared {
         for (place, pair) in self.places.iter().zip(&self.stress[1]).take(2) {
             let [found, exact] = pair.map(|s| s[1] / 1e6);
             let name = format!("{name}: hoop stress at {:.1} mm", 1e3 * place.distance);
-            checks.push(Check {
-                unit: "MPa",
-                ..number(name, found, exact, 0.03, source)
-            });
+            checks.push(check(name, "MPa", [found, exact], 0.03, source));
         }
         checks
     }

@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 use frangible::internals::modal::Oscillator;
 use frangible_bake::BakeError;
 
-use crate::verify::case::{Case, Findings};
-use crate::verify::check::{Check, number};
+use crate::verify::case::Findings;
+use crate::verify::check::{Check, check, checks};
 use crate::verify::ode::integrate;
 
 /// Duration of the pulse, s.
@@ -18,20 +18,9 @@ const STEPS: u32 = 20;
 /// Relative tolerance of each step of the integrator.
 const TOLERANCE: f64 = 1e-10;
 
-pub(crate) const CASE: Case = Case {
-    name: "oscillator",
-    title: "One mode under a half-sine",
-    about: "q̈ + d q̇ + λ q = sin(ut) for 0 ≤ t ≤ t_d = π/u = 1 ms, free after that, from rest: the largest displacement (of a unit force per √kg, hence in s²) at 40 \
-        moments until 2 t_d by the recurrence of the run time, which takes 20 steps in the contact, against an adaptive \
-        Runge–Kutta pair (Dormand and Prince) at a relative tolerance of 10⁻¹⁰ per step. √λ = 4000 rad/s, or u at resonance, \
-        where the textbook's quotient is 0/0. The farthest of all moments and cases is given in units of the largest \
-        displacement, or of √λ times it. Last: an undamped oscillator after a pulse of 0.1 µs swings as after an impulse, with the amplitude φ/ω.",
-    compute,
-};
-
 const INTEGRATOR: &str = "adaptive Runge–Kutta, rtol 10⁻¹⁰";
 
-fn compute(progress: &mut dyn FnMut(f64)) -> Result<Findings, BakeError> {
+pub(super) fn compute() -> Result<Findings, BakeError> {
     let u = PI / DURATION;
     let critical = 2.0 * FREQUENCY;
     let square = FREQUENCY * FREQUENCY;
@@ -49,17 +38,11 @@ fn compute(progress: &mut dyn FnMut(f64)) -> Result<Findings, BakeError> {
         checks.push(check);
         farthest = [0, 1].map(|i| farthest[i].max(off[i]));
     }
-    for (name, value) in [
-        "farthest displacement, any moment",
-        "farthest velocity, any moment",
-    ]
-    .into_iter()
-    .zip(farthest)
-    {
-        checks.push(number(name, value, 0.0, 1e-8, INTEGRATOR));
-    }
+    checks.extend(checks![
+        "farthest displacement, any moment", "", farthest[0] => 0.0, 1e-8, INTEGRATOR;
+        "farthest velocity, any moment", "", farthest[1] => 0.0, 1e-8, INTEGRATOR;
+    ]);
     checks.push(impulse());
-    progress(1.0);
     Ok(checks.into())
 }
 
@@ -86,10 +69,7 @@ fn compare(name: &str, lambda: f64, d: f64, u: f64) -> (Check, [f64; 2]) {
         off[0] = off[0].max((mode.displacement() - q).abs());
         off[1] = off[1].max((mode.velocity() - state[1]).abs());
     }
-    let check = Check {
-        unit: "s²",
-        ..number(name, at_largest, largest, 1e-8, INTEGRATOR)
-    };
+    let check = check(name, "s²", [at_largest, largest], 1e-8, INTEGRATOR);
     (check, [off[0] / largest, off[1] / (w * largest)])
 }
 
@@ -101,14 +81,15 @@ fn impulse() -> Check {
         mode.step(true);
     }
     // Undamped: the amplitude follows from the energy. The impulse of the unit sine is 2/u.
-    Check {
-        unit: "s²",
-        ..number(
-            "amplitude after an impulse",
-            (2.0 * mode.energy()).sqrt() / FREQUENCY,
-            2.0 / u / FREQUENCY,
-            1e-6,
-            "impulse response, φ/ω",
-        )
-    }
+    let pair = [
+        (2.0 * mode.energy()).sqrt() / FREQUENCY,
+        2.0 / u / FREQUENCY,
+    ];
+    check(
+        "amplitude after an impulse",
+        "s²",
+        pair,
+        1e-6,
+        "impulse response, φ/ω",
+    )
 }

@@ -2,8 +2,8 @@
 
 use frangible_bake::{BakeError, Shape};
 
-use crate::verify::case::{Case, Findings};
-use crate::verify::check::number;
+use crate::verify::case::Findings;
+use crate::verify::check::check;
 use crate::verify::models::{TABLES, covered, free_modes, quadratic};
 
 /// Side and thickness, m.
@@ -13,19 +13,9 @@ const THICKNESS: f64 = 0.004;
 /// ω a² √(ρh/D) for ν = 0.3.
 const COEFFICIENTS: [f64; 5] = [13.47, 19.60, 24.27, 34.80, 34.80];
 
-pub(crate) const CASE: Case = Case {
-    name: "plate",
-    title: "Free square plate",
-    about: "A thin plate, 400 × 400 × 4 mm, ν 0.3: the first five values of ω a² √(ρh/D), D = E h³/(12 (1 − ν²)), with one \
-        layer of quadratic elements. Leissa's survey gives 13.47 to 13.49, 19.60 to 19.79 and 24.27 to 24.43 for the first three, \
-        the Ritz series from above; the limits are taken. 16 × 16 squares are about as many as a bake takes; *lattice*: \
-        about 3000 elements of a lattice that covers the plate.",
-    compute,
-};
-
 const LEISSA: &str = "A. W. Leissa, J. Sound Vib. 31, 257 (1973), and later series";
 
-fn compute(progress: &mut dyn FnMut(f64)) -> Result<Findings, BakeError> {
+pub(super) fn compute() -> Result<Findings, BakeError> {
     let e = TABLES.youngs_modulus;
     let nu = TABLES.poisson_ratio;
     let bending = e * THICKNESS.powi(3) / (12.0 * (1.0 - nu * nu));
@@ -38,18 +28,13 @@ fn compute(progress: &mut dyn FnMut(f64)) -> Result<Findings, BakeError> {
         ("lattice", covered(&plate, 0.01, 3000, &TABLES)?, 0.02),
     ];
     let mut checks = Vec::new();
-    for (done, (what, system, tolerance)) in models.iter().enumerate() {
+    for (what, system, tolerance) in &models {
         let modes = free_modes(system, 5)?;
         for (i, reference) in COEFFICIENTS.into_iter().enumerate() {
-            checks.push(number(
-                format!("mode {}, {what}", i + 1),
-                modes.eigenvalues[i].sqrt() * factor,
-                reference,
-                *tolerance,
-                LEISSA,
-            ));
+            let name = format!("mode {}, {what}", i + 1);
+            let found = modes.eigenvalues[i].sqrt() * factor;
+            checks.push(check(name, "", [found, reference], *tolerance, LEISSA));
         }
-        progress((done + 1) as f64 / models.len() as f64);
     }
     Ok(checks.into())
 }

@@ -4,24 +4,16 @@ use frangible_bake::eigen::Modes;
 use frangible_bake::fem::Elasticity;
 use frangible_bake::{BakeError, Shape};
 
-use crate::verify::case::{Case, Findings};
-use crate::verify::check::{Check, number};
+use crate::verify::case::Findings;
+use crate::verify::check::{Check, check};
 use crate::verify::models::{GLASS, free_modes, norm, quadratic};
 
 /// Modes compared.
 const WANTED: usize = 20;
 
-pub(crate) const CASE: Case = Case {
-    name: "scaling",
-    title: "Scaling laws",
-    about: "Twenty modes of a block, computed anew with E × 3, ρ × 2 and size × 2: λ goes with E/ρ and with size⁻², the mode \
-        shapes with ρ^-½ and size^-3/2. Of the twenty the one farthest from the law is shown.",
-    compute,
-};
-
 const DIMENSIONS: &str = "dimensional analysis";
 
-fn compute(progress: &mut dyn FnMut(f64)) -> Result<Findings, BakeError> {
+pub(super) fn compute() -> Result<Findings, BakeError> {
     let of = |scale: f64, material: &Elasticity| -> Result<Modes, BakeError> {
         let block = Shape::block([0.1 * scale, 0.08 * scale, 0.05 * scale]);
         free_modes(&quadratic(&block, 0.025 * scale, 2, material)?, WANTED)
@@ -42,7 +34,6 @@ fn compute(progress: &mut dyn FnMut(f64)) -> Result<Findings, BakeError> {
         },
     )?;
     let larger = of(2.0, &GLASS)?;
-    progress(1.0);
     let eigenvalue = |modes: &Modes, i: usize| modes.eigenvalues[i] / before.eigenvalues[i];
     let shape = |modes: &Modes, i: usize| norm(modes.shape(i)) / norm(before.shape(i));
     Ok(vec![
@@ -63,5 +54,5 @@ fn farthest(name: &str, reference: f64, tolerance: f64, ratio: impl Fn(usize) ->
         .map(ratio)
         .max_by(|a, b| (a - reference).abs().total_cmp(&(b - reference).abs()))
         .unwrap_or(f64::NAN);
-    number(name, value, reference, tolerance, DIMENSIONS)
+    check(name, "", [value, reference], tolerance, DIMENSIONS)
 }

@@ -8,27 +8,15 @@ use frangible_bake::{BakeError, Shape};
 use super::blow::force_at;
 use crate::verify::blows::probe::{blow, material, solid};
 use crate::verify::blows::strike;
-use crate::verify::case::{Case, Findings};
-use crate::verify::check::{Check, number};
-
-pub(crate) const CASE: Case = Case {
-    name: "two-bodies",
-    title: "Two bodies that both vibrate",
-    about: "The gap of a contact holds the vibration of both bodies, and both feel one force. Two free rods of glass (400 × 4 × 4 mm, 240 modes each) meet end \
-        to end at 4 m/s behind Hertz' spring: each end gives way at F/ρcA until its wave is back, so that the rods exchange their speeds \
-        after the wave's way there and back. Two heavy blocks of glass (50 mm, 60 modes each) touch at 0.1 m/s on a radius of 0.5 mm: all modes \
-        answer far faster than the contact lasts, which leaves Hertz' blow of two bodies.",
-    compute,
-};
+use crate::verify::case::Findings;
+use crate::verify::check::{Check, check, checks};
 
 const ST_VENANT: &str = "B. de Saint-Venant (1883); waves in a rod, d'Alembert";
 const HERTZ: &str = "H. Hertz (1882); Johnson, Contact Mechanics, §11.4";
 
-fn compute(progress: &mut dyn FnMut(f64)) -> Result<Findings, BakeError> {
+pub(super) fn compute() -> Result<Findings, BakeError> {
     let mut checks = rods()?;
-    progress(0.7);
     checks.extend(blocks()?);
-    progress(1.0);
     Ok(checks.into())
 }
 
@@ -83,28 +71,15 @@ fn rods() -> Result<Vec<Check>, BakeError> {
             let time = share * echo;
             // The ends' lateral inertia delays the rise.
             let tolerance = if share < 0.15 { 0.07 } else { 0.02 };
-            let [found, exact] = [force_at(&found, time), exact.at(time)];
-            let check = number(name, found, exact, tolerance, ST_VENANT);
-            Check { unit: "N", ..check }
+            let pair = [force_at(&found, time), exact.at(time)];
+            check(name, "N", pair, tolerance, ST_VENANT)
         })
         .into();
-    checks.push(number(
-        "rods end to end: impulse, in momenta of one rod",
-        report.impulse / (mass * SPEED),
-        1.0,
-        0.005,
-        ST_VENANT,
-    ));
-    checks.push(Check {
-        unit: "s",
-        ..number(
-            "rods end to end: duration",
-            report.duration,
-            exact.duration(),
-            0.05,
-            ST_VENANT,
-        )
-    });
+    let impulse = report.impulse / (mass * SPEED);
+    checks.extend(checks![
+        "rods end to end: impulse, in momenta of one rod", "", impulse => 1.0, 0.005, ST_VENANT;
+        "rods end to end: duration", "s", report.duration => exact.duration(), 0.05, ST_VENANT;
+    ]);
     Ok(checks)
 }
 
@@ -120,21 +95,9 @@ fn blocks() -> Result<Vec<Check>, BakeError> {
     let deepest = (1.25 * 0.5 * mass * SPEED * SPEED / spring(RADIUS)).powf(0.4);
     let duration = 2.9432 * deepest / SPEED;
     let peak = spring(RADIUS) * deepest.powf(1.5);
-    Ok(vec![
-        Check {
-            unit: "s",
-            ..number("blocks: duration", report.duration, duration, 0.01, HERTZ)
-        },
-        Check {
-            unit: "N",
-            ..number("blocks: peak force", report.peak_force, peak, 0.01, HERTZ)
-        },
-        number(
-            "blocks: restitution",
-            report.departure_speed / SPEED,
-            1.0,
-            0.01,
-            HERTZ,
-        ),
+    Ok(checks![
+        "blocks: duration", "s", report.duration => duration, 0.01, HERTZ;
+        "blocks: peak force", "N", report.peak_force => peak, 0.01, HERTZ;
+        "blocks: restitution", "", report.departure_speed / SPEED => 1.0, 0.01, HERTZ;
     ])
 }

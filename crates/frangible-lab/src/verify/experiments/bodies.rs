@@ -6,12 +6,7 @@ use frangible::internals::Fields;
 use frangible::{Breakable, Material};
 use frangible_bake::{BakeSpec, MeshSize, Region, Shape, Support, bake};
 
-use crate::verify::VerifyError;
-
-/// A preset has this name, or an error says that it is missing.
-pub(crate) fn preset(name: &'static str) -> Result<Material, VerifyError> {
-    Material::preset(name).map_err(|source| VerifyError::Material { name, source })
-}
+use crate::Result;
 
 /// A square plate of this side and thickness, m, clamped on its four sides.
 pub(crate) fn clamped(
@@ -35,10 +30,8 @@ pub(crate) fn clamped(
 }
 
 /// The bake makes a body of the specification, and its weak points get the scatter of its material.
-pub(crate) fn breakable(case: &'static str, spec: &BakeSpec) -> Result<Breakable, VerifyError> {
-    let asset = bake(spec).map_err(|source| VerifyError::Bake { case, source })?;
+pub(crate) fn breakable(spec: &BakeSpec) -> Result<Breakable> {
+    let asset = bake(spec)?;
     let fields = Fields::of_material(asset.material());
-    Breakable::new(Arc::new(asset))
-        .and_then(|body| body.with_fields(fields))
-        .map_err(|source| VerifyError::Impact { case, source })
+    Ok(Breakable::new(Arc::new(asset))?.with_fields(fields)?)
 }

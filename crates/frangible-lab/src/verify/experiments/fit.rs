@@ -1,7 +1,9 @@
 //! Laws fitted to counts, with standard errors.
 
+use serde::Serialize;
+
 /// y = k x^p through points, by least squares of the logarithms.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct PowerLaw {
     /// k.
     pub factor: f64,
@@ -51,7 +53,7 @@ impl PowerLaw {
 }
 
 /// N(> m) ∝ m^−(τ−1) exp(−m/m₀) above a least mass: a power law with an exponential cut-off.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct CutOffLaw {
     /// Smallest mass that counts.
     pub least: f64,

@@ -34,6 +34,13 @@ impl CrackPattern {
         }
     }
 
+    /// Both ends of each piece, mm, to a tenth.
+    #[must_use]
+    pub fn millimetres(&self) -> Vec<[f64; 4]> {
+        let ends = |[a, b]: &[DVec2; 2]| [a.x, a.y, b.x, b.y].map(|x| (1e4 * x).round() / 10.0);
+        self.pieces.iter().map(ends).collect()
+    }
+
     /// Number of radial cracks that cross the circle of this radius about the middle, m: places where a piece that runs within 45° of the radius
     /// passes through it. Places less than `gap` m apart along the circle are one crack.
     #[must_use]

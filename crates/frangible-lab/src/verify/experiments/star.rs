@@ -1,45 +1,52 @@
 //! Radial cracks of a thin plate that a small steel projectile hits: their number as a function of the speed.
 
 use frangible::internals::impact_traced;
-use frangible::{Breakable, Contact, FractureConfig, InputError, Material};
+use frangible::{Breakable, Contact, FractureConfig, Material};
 use rayon::prelude::*;
+use serde::Serialize;
+use serde_json::{Value, json};
 
-use super::bodies::{breakable, clamped, preset};
+use super::bodies::{breakable, clamped};
 use super::fit::PowerLaw;
 use super::pattern::CrackPattern;
-use super::progress::{Counter, Hear};
 use super::variants::{DEFAULT, VARIANTS, Variant};
-use crate::verify::VerifyError;
+use crate::Result;
 
-/// Name in errors.
-const NAME: &str = "star";
 /// Side of the square plate, m.
-pub(crate) const SIDE: f64 = 0.1;
+const SIDE: f64 = 0.1;
 /// The thickness that is compared with the measured counts, m.
-pub(crate) const MEASURED_THICKNESS: f64 = 1e-3;
+const MEASURED_THICKNESS: f64 = 1e-3;
 /// Radius of the circle on which cracks are counted, m: ten thicknesses of the plate whose counts are published.
-pub(crate) const RADIUS: f64 = 0.01;
+const RADIUS: f64 = 0.01;
 /// Radii of the circles that are compared with each other, m: from among the rings of a hard blow to where arms end.
-pub(crate) const CIRCLES: [f64; 4] = [RADIUS, 0.02, 0.03, 0.04];
+const CIRCLES: [f64; 4] = [RADIUS, 0.02, 0.03, 0.04];
 /// Lengths are summed between these distances from the middle, m: outside the crushed zone, off the clamped edge.
-pub(crate) const RING: [f64; 2] = [0.005, 0.045];
+const RING: [f64; 2] = [0.005, 0.045];
 /// Height of the plane on which cracks are counted, in thicknesses above the middle: no layer of nodes lies there.
 const SECTION: f64 = 0.13;
 
+/// 1 mm PMMA: mean counts at 70 and 280 km/h, m/s and cracks (A. Grant, Science News, 26 April 2013).
+const MEASURED: [(f64, f64); 2] = [(70.0 / 3.6, 4.0), (280.0 / 3.6, 8.0)];
+
 /// Plan of the computation.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct StarPlan {
     /// Thicknesses of the plates, m.
+    #[serde(rename = "thicknesses_m")]
     pub thicknesses: Vec<f64>,
     /// Speeds of the projectile, m/s.
+    #[serde(rename = "speeds_m_s")]
     pub speeds: Vec<f64>,
     /// Plates per speed, seeds 1 and up.
     pub seeds: u64,
     /// Speeds at which the variants are computed, of `speeds`; none leaves the variants out.
+    #[serde(rename = "variant_speeds_m_s")]
     pub variant_speeds: Vec<f64>,
     /// Edge of the fracture mesh, m.
+    #[serde(rename = "edge_m")]
     pub edge: f64,
     /// Edge of the analysis mesh, m.
+    #[serde(rename = "analysis_edge_m")]
     pub analysis_edge: f64,
     /// Vibration modes.
     pub modes: usize,
@@ -74,9 +81,10 @@ pub struct StarRun {
 }
 
 /// Mean count at a speed.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Count {
     /// Speed of the projectile, m/s.
+    #[serde(rename = "speed_m_s")]
     pub speed: f64,
     /// Mean over the seeds.
     pub mean: f64,
@@ -126,7 +134,7 @@ impl StarPlan {
 }
 
 impl StarRun {
-    pub(crate) fn new(thickness: f64, variant: &'static str, impacts: Vec<StarImpact>) -> Self {
+    fn new(thickness: f64, variant: &'static str, impacts: Vec<StarImpact>) -> Self {
         let mut run = Self {
             thickness,
             variant,
@@ -151,8 +159,7 @@ impl StarRun {
     }
 
     /// These plates with their radial cracks counted on a circle of this radius, m; `gap` as for [`CrackPattern::crossings`].
-    #[must_use]
-    pub(crate) fn counted_at(&self, radius: f64, gap: f64) -> Self {
+    fn counted_at(&self, radius: f64, gap: f64) -> Self {
         let again = |impact: &StarImpact| StarImpact {
             radial: impact.pattern.crossings(radius, gap) as f64,
             ..impact.clone()
@@ -189,22 +196,14 @@ impl Stars {
     ///
     /// # Errors
     /// An error of the bake or of the impact.
-    pub fn compute(plan: StarPlan, hear: Hear<'_>) -> Result<Self, VerifyError> {
-        let steel = preset("steel")?;
-        let (pmma, glass) = (preset("pmma")?, preset("glass")?);
-        let others = if plan.variant_speeds.is_empty() {
-            0
-        } else {
-            VARIANTS.len()
-        };
-        let plates =
-            plan.thicknesses.len() * plan.speeds.len() + others * plan.variant_speeds.len();
-        let counter = Counter::new(plates * plan.seeds as usize, hear);
+    pub fn compute(plan: StarPlan) -> Result<Self> {
+        let steel = Material::preset("steel")?;
+        let (pmma, glass) = (Material::preset("pmma")?, Material::preset("glass")?);
         let (mut runs, mut variants) = (Vec::new(), Vec::new());
         for &thickness in &plan.thicknesses {
             let baked = plate(&plan, thickness, pmma.clone())?;
             let run = |variant: Variant, baked: &Breakable, speeds: &[f64]| {
-                let plate = variant.applied_to(baked, &glass).map_err(refused)?;
+                let plate = variant.applied_to(baked, &glass)?;
                 let (projectile, config) = (variant.projectile(), variant.config());
                 let blows: Vec<(f64, u64)> = speeds
                     .iter()
@@ -212,16 +211,13 @@ impl Stars {
                     .collect();
                 let hit = |&(speed, seed): &(f64, u64)| {
                     let contact = projectile.contact(&steel, thickness, speed);
-                    let hit = strike(&plate, &plan, thickness, contact, &config, seed);
-                    counter.count();
-                    hit
+                    strike(&plate, &plan, thickness, contact, &config, seed)
                 };
-                let impacts: Result<Vec<StarImpact>, VerifyError> =
-                    blows.par_iter().map(hit).collect();
-                Ok::<_, VerifyError>(StarRun::new(thickness, variant.name, impacts?))
+                let impacts: Result<Vec<StarImpact>> = blows.par_iter().map(hit).collect();
+                Ok::<_, crate::Error>(StarRun::new(thickness, variant.name, impacts?))
             };
             runs.push(run(DEFAULT, &baked, &plan.speeds)?);
-            if thickness == MEASURED_THICKNESS && others > 0 {
+            if thickness == MEASURED_THICKNESS && !plan.variant_speeds.is_empty() {
                 for variant in VARIANTS {
                     let own = variant.material(&pmma).map(|m| plate(&plan, thickness, m));
                     let own = own.transpose()?;
@@ -244,11 +240,95 @@ impl Stars {
     }
 }
 
+impl StarRun {
+    fn data(&self) -> Value {
+        json!({
+            "variant": self.variant,
+            "thickness_m": self.thickness,
+            "counts": self.counts(),
+            "law": self.law,
+            "radial_share": self.radial_share(),
+        })
+    }
+
+    /// Counts at the measured speeds, beside what was measured.
+    fn beside_measured(&self) -> Value {
+        let counts = self.counts();
+        let rows = MEASURED.map(|(speed, measured)| {
+            let Count { mean, error, .. } = interpolated(&counts, speed);
+            json!({
+                "speed_m_s": speed, "mean": mean, "error": error, "measured": measured,
+                "ratio": mean / measured, "ratio_error": error / measured,
+            })
+        });
+        json!(rows)
+    }
+}
+
+impl Stars {
+    /// The numbers: means for each run, the counts at other circles, the variants, and the cracks of the first plates, mm.
+    #[must_use]
+    pub fn data(&self) -> Value {
+        let plan = &self.plan;
+        let counts: Vec<Vec<Count>> = self.runs.iter().map(StarRun::counts).collect();
+        let at = |i: usize| counts.iter().map(|c| c[i]).collect::<Vec<_>>();
+        let by_speed =
+            (0..plan.speeds.len()).map(|i| json!({ "speed_m_s": plan.speeds[i], "runs": at(i) }));
+        let mut data = json!({
+            "plan": plan,
+            "runs": self.runs.iter().map(StarRun::data).collect::<Vec<_>>(),
+            "by_speed": by_speed.collect::<Vec<_>>(),
+        });
+        let Some(default) = self.measured() else {
+            return data;
+        };
+        let circle = |radius: f64| {
+            let run = default.counted_at(radius, plan.edge);
+            let mut row = run.data();
+            row["radius_m"] = json!(radius);
+            row["beside_measured"] = run.beside_measured();
+            row
+        };
+        data["beside_measured"] = default.beside_measured();
+        data["circles"] = json!(CIRCLES.map(circle));
+        let of_variants = |m: &&StarImpact| plan.variant_speeds.contains(&m.speed);
+        let impacts = default.impacts.iter().filter(of_variants).cloned();
+        let same_speeds = StarRun::new(default.thickness, default.variant, impacts.collect());
+        let variants: Vec<&StarRun> = std::iter::once(&same_speeds)
+            .chain(&self.variants)
+            .collect();
+        data["variants"] = json!(variants.iter().map(|run| run.data()).collect::<Vec<_>>());
+        let lines = |run: &StarRun, speed: f64| {
+            let impacts = run.impacts.iter();
+            let mut first = impacts.filter(|m| m.speed == speed && m.seed == 1);
+            let lines = first.next().map(|m| m.pattern.millimetres());
+            json!({ "variant": run.variant, "speed_m_s": speed, "lines_mm": lines })
+        };
+        let drawn = variants.iter().take(2);
+        let drawn = drawn.flat_map(|run| plan.variant_speeds.iter().map(|&v| lines(run, v)));
+        data["patterns"] = json!(drawn.collect::<Vec<_>>());
+        data
+    }
+}
+
+/// The count at a speed between two computed ones, linear in its logarithm; at the ends, theirs.
+fn interpolated(counts: &[Count], speed: f64) -> Count {
+    let after = counts.iter().position(|c| c.speed >= speed);
+    let after = after.unwrap_or(counts.len() - 1).max(1);
+    let (a, b) = (counts[after - 1], counts[after]);
+    let share = ((speed / a.speed).ln() / (b.speed / a.speed).ln()).clamp(0.0, 1.0);
+    Count {
+        speed,
+        mean: a.mean + share * (b.mean - a.mean),
+        error: ((1.0 - share) * a.error).hypot(share * b.error),
+    }
+}
+
 /// A plate clamped all round.
-fn plate(plan: &StarPlan, thickness: f64, material: Material) -> Result<Breakable, VerifyError> {
+fn plate(plan: &StarPlan, thickness: f64, material: Material) -> Result<Breakable> {
     let edges = [plan.analysis_edge, plan.edge];
     let spec = clamped(SIDE, thickness, material, edges, plan.modes);
-    breakable(NAME, &spec)
+    breakable(&spec)
 }
 
 fn strike(
@@ -258,9 +338,8 @@ fn strike(
     contact: Contact,
     config: &FractureConfig,
     seed: u64,
-) -> Result<StarImpact, VerifyError> {
-    let (_, trace) = impact_traced(&plate.body(seed), std::slice::from_ref(&contact), config)
-        .map_err(refused)?;
+) -> Result<StarImpact> {
+    let (_, trace) = impact_traced(&plate.body(seed), std::slice::from_ref(&contact), config)?;
     let pattern = CrackPattern::of(plate.asset(), &trace, SECTION * thickness);
     Ok(StarImpact {
         speed: f64::from(contact.approach_speed),
@@ -269,8 +348,4 @@ fn strike(
         lengths: pattern.lengths(RING[0], RING[1]),
         pattern,
     })
-}
-
-fn refused(source: InputError) -> VerifyError {
-    VerifyError::Impact { case: NAME, source }
 }

@@ -1,30 +1,25 @@
 //! Accuracy of the near field close to an edge of the wall: supported, free or held.
 
-use frangible::glam::DVec3;
 use frangible::{Asset, FractureConfig};
-use frangible_bake::{BakeError, BakeSpec, MeshSize, Region, Shape, Support, bake};
+use frangible_bake::{BakeError, MeshSize, bake};
+use serde_json::{Value, json};
 
 use crate::verify::blows::plate::Terms;
 use crate::verify::blows::probe::{
     self, BALL, PLATE, ball, body, felt, following, material, places,
 };
 use crate::verify::cases::near_field::Compared;
+use crate::verify::experiments::clamped;
 
 /// Distances of the contact from the edge, in shortest wavelengths of the modes.
-pub(super) const SHARES: [f64; 4] = [1.0, 0.5, 0.25, 0.1];
+const SHARES: [f64; 4] = [1.0, 0.5, 0.25, 0.1];
 
 /// Modes of the free and of the held plate that stand for all, and of which so many are followed.
 const MODES: usize = 300;
 const FOLLOWED: usize = 75;
 
 /// Largest difference of the total stress over its peak, by distance from the edge.
-#[derive(Clone, Debug)]
-pub(super) struct EdgeRow {
-    pub(super) name: String,
-    pub(super) errors: Vec<f64>,
-}
-
-pub(super) fn compute(plate: &Asset) -> Result<Vec<EdgeRow>, BakeError> {
+pub(super) fn compute(plate: &Asset) -> Result<Vec<Value>, BakeError> {
     let supported = body(plate.clone())?;
     let wavelength = wavelength_of(plate.modes().count());
     let mut rows = Vec::new();
@@ -40,10 +35,8 @@ pub(super) fn compute(plate: &Asset) -> Result<Vec<EdgeRow>, BakeError> {
             let compared = Compared::of(&supported, &config, Terms::Layer, at(share * wavelength))?;
             Ok(compared.error(|s| s[0] + s[1]))
         });
-        rows.push(EdgeRow {
-            name: name.into(),
-            errors: errors.collect::<Result<_, BakeError>>()?,
-        });
+        let errors: Vec<f64> = errors.collect::<Result<_, BakeError>>()?;
+        rows.push(json!({ "name": name, "errors": errors }));
     }
     for (name, held) in [("free", false), ("held", true)] {
         let asset = other(held)?;
@@ -53,53 +46,27 @@ pub(super) fn compute(plate: &Asset) -> Result<Vec<EdgeRow>, BakeError> {
                 let at = if corner { [d, d] } else { [d, 0.013] };
                 many(&asset, at)
             });
-            rows.push(EdgeRow {
-                name: format!("{name}{suffix}"),
-                errors: errors.collect::<Result<_, BakeError>>()?,
-            });
+            let errors: Vec<f64> = errors.collect::<Result<_, BakeError>>()?;
+            rows.push(json!({ "name": format!("{name}{suffix}"), "errors": errors }));
         }
     }
     Ok(rows)
 }
 
 /// 2π/k_c of so many modes of the plate: k_c² = 4πN/A.
-pub(super) fn wavelength_of(modes: usize) -> f64 {
+fn wavelength_of(modes: usize) -> f64 {
     let pi = std::f64::consts::PI;
     2.0 * pi / (4.0 * pi * modes as f64).sqrt() * PLATE.side
 }
 
 /// The plate without supports, or with all of its edges held.
 fn other(held: bool) -> Result<Asset, BakeError> {
-    let axes = [DVec3::X, DVec3::Y];
-    let sides = axes.into_iter().flat_map(|axis| {
-        let last = Region::HalfSpace {
-            point: PLATE.side * axis,
-            normal: -axis,
-        };
-        let first = Region::HalfSpace {
-            point: DVec3::ZERO,
-            normal: axis,
-        };
-        [first, last].map(Support::clamped)
-    });
     let m = material(PLATE.youngs_modulus, PLATE.poisson_ratio, PLATE.density);
-    let spec = BakeSpec {
-        modes: MODES,
-        analysis: Some(MeshSize {
-            edge: 0.0025,
-            layers: 1,
-        }),
-        fracture: Some(MeshSize {
-            edge: 0.0015,
-            layers: 1,
-        }),
-        supports: if held { sides.collect() } else { Vec::new() },
-        ..BakeSpec::new(
-            "plate",
-            Shape::plate(PLATE.side, PLATE.side, PLATE.thickness),
-            m,
-        )
-    };
+    let mut spec = clamped(PLATE.side, PLATE.thickness, m, [0.0025, 0.0015], MODES);
+    spec.fracture = spec.fracture.map(|size| MeshSize { layers: 1, ..size });
+    if !held {
+        spec.supports.clear();
+    }
     bake(&spec)
 }
 

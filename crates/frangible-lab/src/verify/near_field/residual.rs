@@ -4,22 +4,15 @@ use frangible::glam::Vec3;
 use frangible::internals::stress::largest_eigenvalue;
 use frangible::{Asset, Body, Contact, FractureConfig, Material, Striker};
 use frangible_bake::{BakeError, BakeSpec, Shape, bake};
+use serde_json::{Value, json};
 
 use crate::verify::blows::probe::{blow, body, following};
 
 /// Modes of each body.
-pub(super) const MODES: usize = 400;
+const MODES: usize = 400;
 
 /// Peak stress over that of all modes.
-#[derive(Clone, Debug)]
-pub(super) struct ResidualRow {
-    pub(super) name: &'static str,
-    pub(super) followed: usize,
-    pub(super) without: f64,
-    pub(super) with: f64,
-}
-
-pub(super) fn compute() -> Result<Vec<ResidualRow>, BakeError> {
+pub(super) fn compute() -> Result<Vec<Value>, BakeError> {
     let of = |shape: Shape, name: &str| -> Result<Asset, BakeError> {
         let mut material = Material::preset(name).expect("brick and glass are presets");
         material.weak_point_density = 1e15;
@@ -69,12 +62,8 @@ pub(super) fn compute() -> Result<Vec<ResidualRow>, BakeError> {
             largest(&body, contact.clone(), &config)
         };
         let all = peak(MODES, true)?;
-        rows.push(ResidualRow {
-            name,
-            followed,
-            without: peak(followed, false)? / all,
-            with: peak(followed, true)? / all,
-        });
+        let [without, with] = [peak(followed, false)? / all, peak(followed, true)? / all];
+        rows.push(json!({ "name": name, "followed": followed, "without": without, "with": with }));
     }
     Ok(rows)
 }

@@ -13,8 +13,7 @@ use super::choose::{Broken, Chosen};
 use super::impacts::{LEVELS, STRONGER, Stress, place, speed_for, stress};
 use super::way::{REANALYSIS, WAYS, Ways};
 use super::{TruthPlan, clock, impacts};
-use crate::verify::VerifyError;
-use crate::verify::experiments::preset;
+use crate::Result;
 
 /// Frequencies that are compared.
 pub(crate) const FREQUENCIES: usize = 5;
@@ -109,8 +108,8 @@ impl Bodies {
     fn new(
         broken: &Broken,
         portion: &Arc<Portion>,
-        find: impl FnOnce() -> Result<Elastic, PieceError>,
-    ) -> Result<Self, PieceError> {
+        find: impl FnOnce() -> std::result::Result<Elastic, PieceError>,
+    ) -> std::result::Result<Self, PieceError> {
         let start = clock::now();
         let elastic = find()?;
         let brittle = broken.body.piece(portion, elastic)?;
@@ -160,18 +159,14 @@ pub(crate) fn measure(
     broken: &Broken,
     chosen: &Chosen,
     number: usize,
-) -> Result<Result<PieceSample, String>, VerifyError> {
-    let failed = |source| VerifyError::Impact {
-        case: "pieces",
-        source,
-    };
+) -> Result<std::result::Result<PieceSample, String>> {
     let portion = &chosen.portion;
     let full = || reanalysis(portion, plan.elements, plan.modes);
     let truth = match Bodies::new(broken, portion, full) {
         Ok(truth) => truth,
         Err(error) => return Ok(Err(format!("{}: {error}", broken.name))),
     };
-    let materials = [preset("stone")?, preset("steel")?];
+    let materials = [Material::preset("stone")?, Material::preset("steel")?];
     let size = diagonal(portion.surface_positions());
     // The trial body sets the speeds; the truth gives the outcomes.
     let trial = Bodies::new(broken, portion, || {
@@ -183,14 +178,14 @@ pub(crate) fn measure(
         // Where a piece is held, or hit on a tip, no blow reaches the level.
         for draw in 0..DRAWS {
             let at = place(&truth.brittle, number, k + LEVELS.len() * draw);
-            let speed = speed_for(&trial.strong, at, level, &materials).map_err(failed)?;
+            let speed = speed_for(&trial.strong, at, level, &materials)?;
             let contact = impacts::contact(&truth.brittle, at, speed, &materials);
-            let found = stress(&truth.strong, &contact).map_err(failed)?;
+            let found = stress(&truth.strong, &contact)?;
             let Some(found) = found.filter(|s| s.level > ENOUGH * level) else {
                 continue;
             };
-            let (breaks, softened) = blow(&truth.brittle, &contact).map_err(failed)?;
-            let nudged = nudged(&truth.brittle, at, speed, &materials).map_err(failed)?;
+            let (breaks, softened) = blow(&truth.brittle, &contact)?;
+            let nudged = nudged(&truth.brittle, at, speed, &materials)?;
             let level = found.level;
             blows.push((
                 contact,
@@ -206,7 +201,7 @@ pub(crate) fn measure(
             break;
         }
     }
-    let sample = |way: usize| -> Result<Option<Sample>, VerifyError> {
+    let sample = |way: usize| -> Result<Option<Sample>> {
         let find = || ways.elastic(way, portion, &broken.body);
         let Ok(bodies) = Bodies::new(broken, portion, find) else {
             return Ok(None);
@@ -220,7 +215,7 @@ pub(crate) fn measure(
                 breaks: would_break(&bodies.brittle, std::slice::from_ref(contact), &config)?,
             })
         });
-        let blows = blows.collect::<Result<_, _>>().map_err(failed)?;
+        let blows = blows.collect::<Result<_>>()?;
         Ok(Some(Sample {
             reading: bodies.reading,
             blows,
@@ -252,7 +247,7 @@ fn nudged(
     at: (Vec3, Vec3),
     speed: f64,
     materials: &[Material; 2],
-) -> Result<[bool; 2], InputError> {
+) -> std::result::Result<[bool; 2], InputError> {
     let config = FractureConfig::default();
     let hit = |factor: f64| {
         let contact = impacts::contact(piece, at, factor * speed, materials);
@@ -262,7 +257,7 @@ fn nudged(
 }
 
 /// Returns true if a blow breaks a piece. If it only cracks, also returns the first frequency with the cracks over that without.
-fn blow(piece: &Body, contact: &Contact) -> Result<(bool, Option<f64>), InputError> {
+fn blow(piece: &Body, contact: &Contact) -> std::result::Result<(bool, Option<f64>), InputError> {
     let config = FractureConfig::default();
     let state = match impact(piece, std::slice::from_ref(contact), &config)? {
         Outcome::Broke(_) => return Ok((true, None)),

@@ -2,33 +2,35 @@
 //! its own: `frangible-lab pieces`.
 //!
 //! The truth is an analysis of the piece as fine as a bake's; some pieces are also meshed anew from their surface and baked, which shares neither
-//! elements nor lattice with it. Nothing passes or fails: [`Truth::page`] reports the results.
+//! elements nor lattice with it. Nothing passes or fails.
 
 mod baked;
-mod chart;
 mod choose;
 mod clock;
 mod impacts;
 mod measure;
-mod page;
+mod report;
+mod scenes;
 mod statistics;
 mod way;
 
 pub use baked::Rebaked;
 pub use choose::Broken;
 pub use measure::{Blow, PieceSample, Reading, Sample};
+pub use scenes::broken_scenes;
 pub use way::{WAYS, Way};
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use crate::verify::VerifyError;
-use crate::verify::experiments::Hear;
+use serde::Serialize;
+
+use crate::{Progress, Result};
 use choose::{Chosen, choose};
 use way::Ways;
 
 /// Plan of the computation.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct TruthPlan {
     /// Fragments, spread over the bodies and over sizes; fewer where there are not so many.
     pub fragments: usize,
@@ -86,11 +88,7 @@ impl Truth {
     ///
     /// # Errors
     /// An error of the fracture code; a thread that could not be started.
-    pub fn compute(
-        plan: TruthPlan,
-        broken: &[Broken],
-        hear: Hear<'_>,
-    ) -> Result<Self, VerifyError> {
+    pub fn compute(plan: TruthPlan, broken: &[Broken], hear: Progress<'_>) -> Result<Self> {
         let chosen = choose(broken, plan.fragments);
         let ways = Ways::new();
         let every = (chosen.len() / plan.baked.max(1)).max(1);
@@ -126,12 +124,11 @@ impl Truth {
 fn side_by_side<T: Sync, R: Send>(
     all: &[T],
     threads: usize,
-    hear: Hear<'_>,
-    work: &(dyn Fn(usize, &T) -> Result<R, VerifyError> + Sync),
-) -> Result<Vec<R>, VerifyError> {
+    hear: Progress<'_>,
+    work: &(dyn Fn(usize, &T) -> Result<R> + Sync),
+) -> Result<Vec<R>> {
     let (next, done) = (AtomicUsize::new(0), AtomicUsize::new(0));
-    let results: Mutex<Vec<(usize, Result<R, VerifyError>)>> = Mutex::default();
-    let failed = |reason: String| VerifyError::Pieces { reason };
+    let results: Mutex<Vec<(usize, Result<R>)>> = Mutex::default();
     hear(0.0);
     let one = || {
         loop {
@@ -150,16 +147,13 @@ fn side_by_side<T: Sync, R: Send>(
     };
     let pools: Vec<rayon::ThreadPool> = (0..threads.max(1))
         .map(|_| rayon::ThreadPoolBuilder::new().num_threads(1).build())
-        .collect::<Result<_, _>>()
-        .map_err(|e| failed(e.to_string()))?;
+        .collect::<std::result::Result<_, _>>()?;
     std::thread::scope(|scope| {
         for pool in &pools {
             scope.spawn(|| pool.install(one));
         }
     });
-    let mut results = results
-        .into_inner()
-        .map_err(|_| failed("it panicked".into()))?;
+    let mut results = results.into_inner().map_err(|e| e.to_string())?;
     results.sort_by_key(|r| r.0);
     results.into_iter().map(|r| r.1).collect()
 }

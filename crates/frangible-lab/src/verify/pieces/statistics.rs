@@ -1,9 +1,11 @@
 //! Statistics of a way over many pieces.
 
+use serde::Serialize;
+
 use super::measure::{BlowSample, PieceSample, Sample};
 
 /// A way over some pieces. Errors are relative.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub(crate) struct Worth {
     /// Pieces that it served, and that it refused.
     pub(crate) served: usize,
@@ -19,7 +21,7 @@ pub(crate) struct Worth {
     /// Share of the blows that it decides as the truth does.
     pub(crate) right: Option<f64>,
     /// Time until ready, s, and memory, bytes: medians.
-    pub(crate) ready: Option<f64>,
+    pub(crate) ready_s: Option<f64>,
     pub(crate) bytes: Option<f64>,
 }
 
@@ -56,7 +58,7 @@ impl Worth {
             bias: quantile(&ratios, 0.5).map(|r| r - 1.0),
             apart: quantile(&apart, 0.5),
             right: (!decided.is_empty()).then(|| right as f64 / decided.len() as f64),
-            ready: quantile(&ready, 0.5),
+            ready_s: quantile(&ready, 0.5),
             bytes: quantile(&bytes, 0.5),
         }
     }
@@ -67,7 +69,7 @@ fn both(errors: &[f64]) -> Option<[f64; 2]> {
 }
 
 /// Sizes of the relative errors of the first frequencies.
-pub(crate) fn frequency_errors(piece: &PieceSample, sample: &Sample) -> impl Iterator<Item = f64> {
+fn frequency_errors(piece: &PieceSample, sample: &Sample) -> impl Iterator<Item = f64> {
     let own = sample.reading.frequencies.iter();
     own.zip(&piece.truth.frequencies)
         .map(|(f, t)| (f / t - 1.0).abs())

@@ -51,12 +51,8 @@ pub const WAYS: [Way; 6] = [
     },
 ];
 
-/// Places of the ways that the page speaks of.
-pub(crate) const PARENT_MODES: usize = 0;
+/// Place of the way that sets the speeds of the blows.
 pub(crate) const REANALYSIS: usize = 2;
-pub(crate) const FINE: usize = 3;
-pub(crate) const FINEST: usize = 4;
-pub(crate) const AUTO: usize = 5;
 
 /// The ways, ready to be asked.
 pub(crate) struct Ways(Vec<Pieces>);

@@ -34,10 +34,6 @@ pub(super) fn panel(
         compare(ui, compared);
         return;
     }
-    if shown.subject == Subject::Methods {
-        super::methods::panel(ui, shown, commands);
-        return;
-    }
     let Some(blow) = &shown.blow else {
         ui.label("No contact yet: click into the scene to throw a ball, or drop the body.");
         return;
@@ -89,11 +85,6 @@ fn subjects(ui: &mut Ui, shown: &Shown, commands: &mut Vec<Command>) {
                 "compare",
                 "5: the repeated impact beside the original",
             ),
-            (
-                Subject::Methods,
-                "methods",
-                "M: the last impact with several fracture methods, side by side",
-            ),
         ] {
             let there = match subject {
                 Subject::World => true,
@@ -102,10 +93,7 @@ fn subjects(ui: &mut Ui, shown: &Shown, commands: &mut Vec<Command>) {
             };
             let label = egui::Button::selectable(shown.subject == subject, label);
             if ui.add_enabled(there, label).on_hover_text(hint).clicked() {
-                commands.push(match subject {
-                    Subject::Methods => Command::CompareMethods(Vec::new()),
-                    other => Command::Look(other),
-                });
+                commands.push(Command::Look(subject));
             }
         }
     });

@@ -31,10 +31,6 @@ impl Panels {
                 })
             }
             Stroke::Compare => Command::Look(Subject::Compare),
-            Stroke::Methods => {
-                self.tab = Some(Tab::Inspect);
-                Command::CompareMethods(Vec::new())
-            }
             Stroke::Wireframe => toggle(Mark::Wireframe),
             Stroke::Explode if shown.explode > 0.0 => Command::Explode(0.0),
             Stroke::Explode => Command::Explode(APART),

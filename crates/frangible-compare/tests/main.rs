@@ -1,5 +1,0 @@
-//! Tests of the compared methods.
-
-mod common;
-mod division;
-mod methods;

@@ -1,0 +1,5 @@
+//! Other fracture methods.
+
+mod common;
+mod division;
+mod methods;

@@ -1,0 +1,5 @@
+//! Crack initiation on a GPU.
+
+mod common;
+mod initiation;
+mod outcomes;
