@@ -173,3 +173,48 @@ fn pieces_share_the_parents_mesh_and_weak_points() {
         }
     }
 }
+
+#[test]
+fn blows_that_chip_small_pieces_have_impulses_and_velocities() {
+    let kind = breakable(Shape::plate(0.2, 0.2, 0.004), "glass", 6_000.0, 40);
+    let body = kind.body(3);
+    let ball = Striker::ball(&Material::preset("stone").expect("a preset"), 0.01, 0.01);
+    let hit = Contact::strike(
+        Vec3::new(0.02, 0.01, 0.002),
+        Vec3::NEG_Z,
+        20.0,
+        ball.clone(),
+    );
+    let config = FractureConfig::default();
+    let outcome = impact(&body, std::slice::from_ref(&hit), &config).expect("an outcome");
+    let Outcome::Broke(fracture) = outcome else {
+        panic!("the plate held");
+    };
+    let portions = fracture.portions(&body, |_, _| true);
+    let (mut blows, mut breaks) = (0, 0);
+    for (portion, fragment) in portions.iter().flatten().zip(&fracture.fragments) {
+        let Ok(elastic) = reanalysis(portion, 60, 20) else {
+            continue;
+        };
+        let piece = body.piece(portion, elastic).expect("a piece");
+        let points = &fragment.mesh.positions;
+        for &at in points.iter().step_by(points.len().div_ceil(12)) {
+            let hit = Contact::strike(at, -at.normalize_or(Vec3::X), 40.0, ball.clone());
+            let outcome = impact(&piece, std::slice::from_ref(&hit), &config).expect("an outcome");
+            blows += 1;
+            let contacts = &outcome.report().contacts;
+            assert!(
+                contacts.iter().all(|contact| contact.impulse.is_finite()),
+                "{contacts:?}"
+            );
+            if let Outcome::Broke(again) = outcome {
+                breaks += 1;
+                for fragment in &again.fragments {
+                    assert!(fragment.velocity.is_finite(), "{fragment:?}");
+                    assert!(fragment.angular_velocity.is_finite(), "{fragment:?}");
+                }
+            }
+        }
+    }
+    assert!(blows > 100 && breaks > 20, "{breaks} of {blows}");
+}

@@ -65,6 +65,9 @@ impl Moments {
                     parts,
                 };
             }
+            if parts.is_empty() {
+                return Self::of_nodes(body, groups, group);
+            }
             let at = |tet: u32| centroids[tet as usize].as_dvec3();
             let mass: f64 = parts.iter().map(|p| p.1).sum();
             let centre = parts.iter().map(|&(tet, m)| m * at(tet)).sum::<DVec3>() / mass;
@@ -82,6 +85,29 @@ impl Moments {
             }
         };
         ((0..).zip(parts).skip(1).map(of).collect(), mixed)
+    }
+
+    /// Mass of a group that is a splinter of a piece and has no whole tetrahedron of that: the volumes of its nodes. The modes of the piece hold nothing of
+    /// it.
+    fn of_nodes(body: &Body, groups: &Groups, group: u32) -> Self {
+        let (index, mesh) = (&body.prepared.index, &body.asset.fracture);
+        let own = (0..).zip(&groups.of_node).filter(|&(_, &g)| g == group);
+        let (mut volume, mut count, mut sum) = (0, 0.0, DVec3::ZERO);
+        for (v, _) in own {
+            let v: usize = v;
+            volume += index.volumes[v];
+            count += 1.0;
+            sum += mesh.positions[v].as_dvec3();
+        }
+        let density = f64::from(body.asset.material.density as f32);
+        let mass = density * index.total_volume * (volume as f64 / index.whole as f64);
+        let edge = f64::from(body.prepared.edge);
+        Self {
+            mass,
+            centre: sum / count,
+            inertia: DMat3::from_diagonal(DVec3::splat(0.05 * edge * edge * mass)),
+            parts: Vec::new(),
+        }
     }
 
     /// Adds its mass and inertia to the matrix of all groups.
