@@ -64,7 +64,7 @@ fn the_first_line_of_a_page_names_the_commit_of_its_data() {
         let now = commit_of(&crates);
         match now.as_str() {
             "unknown" => {
-                println!("SKIPPED: without a history the age of docs/{quote} is not known")
+                println!("SKIPPED: without a history the age of docs/{quote} is not known");
             }
             now if now == commit => {}
             now => println!(

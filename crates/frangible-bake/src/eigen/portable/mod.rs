@@ -44,7 +44,7 @@ impl Entries<'_> {
 
     /// The matrix from this column on.
     #[inline(always)]
-    fn from_column(self, column: usize) -> Self {
+    fn after(self, column: usize) -> Self {
         Self {
             data: &self.data[(column * self.across).min(self.data.len())..],
             ..self
@@ -63,7 +63,7 @@ pub(crate) fn add_product(
 ) {
     for first in (0..columns).step_by(WIDE) {
         let to = &mut to[first * to_stride..];
-        let b = b.from_column(first);
+        let b = b.after(first);
         let wide = WIDE.min(columns - first);
         let tall = rows - rows % TALL;
         for row in (0..tall).step_by(TALL) {
@@ -73,13 +73,13 @@ pub(crate) fn add_product(
                 continue;
             }
             for column in 0..wide {
-                let (to, b) = (&mut to[column * to_stride..], b.from_column(column));
+                let (to, b) = (&mut to[column * to_stride..], b.after(column));
                 tile::<TALL, 1>(to, 0, a, a_stride, b, inner, sign);
             }
         }
         for row in tall..rows {
             for column in 0..wide {
-                let (to, b) = (&mut to[column * to_stride + row..], b.from_column(column));
+                let (to, b) = (&mut to[column * to_stride + row..], b.after(column));
                 tile::<1, 1>(to, 0, &a[row..], a_stride, b, inner, sign);
             }
         }
