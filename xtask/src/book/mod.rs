@@ -28,7 +28,7 @@ use crate::setup::setup;
 use page::{Page, chapters};
 
 /// The pages that the wheel's environment runs.
-const WHEEL_PAGE: &str = "book/src/start/python.md";
+const WHEEL_PAGES: [&str; 2] = ["book/src/start/python.md", "book/src/how-to/kit.md"];
 
 /// Task to do with the book.
 #[derive(Clone, Copy, PartialEq)]
@@ -79,8 +79,10 @@ pub(crate) fn book(wish: Wish<'_>) -> Result<Vec<String>> {
 
 /// Runs the Python of the book with the programs of this folder, in which the wheel is installed.
 pub(crate) fn wheel(programs: &Path) -> Result<Vec<String>> {
-    let page = Page::read(WHEEL_PAGE)?;
-    let count = run::wheel(&page, programs)?;
+    let mut count = 0;
+    for path in WHEEL_PAGES {
+        count += run::wheel(&Page::read(path)?, programs)?;
+    }
     Ok(vec![format!("python: {count} parts of the book ran")])
 }
 

@@ -115,7 +115,7 @@ impl Page {
         for block in &blocks {
             let runs = match (block.language, block.included) {
                 ("console" | "text" | "sh" | "toml", _) => true,
-                ("python", None) => self.path == super::WHEEL_PAGE,
+                ("python", None) => super::WHEEL_PAGES.contains(&self.path.as_str()),
                 ("rust", Some("bevy_frangible/README.md")) => true,
                 ("rust", Some(file)) => example(file).is_some_and(|(package, name)| {
                     let words = format!("-p {package} --example {name}");
