@@ -46,7 +46,7 @@ fn bowl() -> Result<FrangibleAsset, Box<dyn std::error::Error>> {
     Ok(FrangibleAsset::new(bake(&spec)?)?)
 }
 
-/// Where a bowl begins to fall: beside the one before, so that they meet what lies there at other places.
+/// Starting position of a bowl, m: beside that of the bowl before, so that no two land on the same spot.
 fn start(number: usize) -> (Vec3, Quat) {
     let turn = 2.4 * number as f32;
     let aside = 0.08 * Vec3::new(turn.cos(), 0.0, turn.sin());

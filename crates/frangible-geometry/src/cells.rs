@@ -92,7 +92,7 @@ impl PlaneCells {
     }
 }
 
-/// Which faces lie within the outlines: those that an odd number of outlines separates from the outside.
+/// Marks the faces within the outlines: those that an odd number of outlines separates from the outside.
 fn inside(delaunay: &Delaunay) -> Vec<bool> {
     let mut known: Vec<Option<bool>> = vec![None; delaunay.num_all_faces()];
     let outside = delaunay.outer_face().fix().index();

@@ -1,4 +1,4 @@
-//! The same bits in every run, forces that push, pieces at a tick that is known; and bodies that vibrate from tick to tick.
+//! Tests of the haptic example: equal bits in every run, forces that only push, the tick at which pieces part, and vibration that goes on between ticks.
 
 use frangible::glam::Vec3;
 use frangible::internals::asset::AssetParts;

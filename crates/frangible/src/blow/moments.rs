@@ -91,10 +91,9 @@ impl Moments {
     /// it.
     fn of_nodes(body: &Body, groups: &Groups, group: u32) -> Self {
         let (index, mesh) = (&body.prepared.index, &body.asset.fracture);
-        let own = (0..).zip(&groups.of_node).filter(|&(_, &g)| g == group);
+        let own = (0..mesh.positions.len()).filter(|&v| groups.of_node[v] == group);
         let (mut volume, mut count, mut sum) = (0, 0.0, DVec3::ZERO);
-        for (v, _) in own {
-            let v: usize = v;
+        for v in own {
             volume += index.volumes[v];
             count += 1.0;
             sum += mesh.positions[v].as_dvec3();

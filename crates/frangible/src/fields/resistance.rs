@@ -91,7 +91,7 @@ pub(crate) struct Resistance {
     pub(crate) weakest: f64,
     /// Factor by which it is stronger than its flaws say ([`Self::strengthened`]).
     strengthened: f64,
-    /// What the residual stress adds to the strength of its flaws, all of which lie on faces, Pa.
+    /// Strength that the residual stress adds at its flaws, all of which lie on faces, Pa.
     pressed: f64,
 }
 

@@ -45,7 +45,7 @@ pub(crate) struct NearShapes {
     radii: Vec<f64>,
     /// σ_r + σ_θ and σ_θ − σ_r of the far face of everything that follows the force, Pa/N, at each distance.
     still: Vec<[f64; 2]>,
-    /// The same of each oscillator, per newton of ω² q.
+    /// σ_r + σ_θ and σ_θ − σ_r of the far face of each oscillator, Pa per newton of ω² q, at each distance.
     swinging: Vec<Vec<[f64; 2]>>,
 }
 
