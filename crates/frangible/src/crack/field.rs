@@ -9,8 +9,8 @@ use crate::config::FractureConfig;
 use crate::motion::{DisplacementBatch, Moment, Motion};
 use crate::near_field::NearFields;
 use crate::stress::{
-    BATCH, Elasticity, Frame, Lanes, Law, MOST, RowPoint, STRIDE, Sample, Skin, StressLanes,
-    StressState, Symmetric3, Wall, WeakPlace, of_shape, wall_of, weak_place,
+    BATCH, Elasticity, Frame, Lanes, Law, MOST, NO_TET, RowPoint, STRIDE, Sample, SampleStress,
+    Skin, StressLanes, StressState, Symmetric3, Wall, WeakPlace, of_shape, wall_of, weak_place,
 };
 
 /// Stress at fracture tetrahedra at one step.
@@ -156,6 +156,7 @@ impl<'a> StressField<'a> {
         let share = point.share();
         let mut numbers = [Lanes::default(); MOST];
         let own = Sample {
+            tet: NO_TET,
             point: point.point,
             law: point.law,
             place: point.place,
@@ -216,7 +217,8 @@ impl<'a> StressField<'a> {
                 let numbers = &mut numbers[..image.frame.count()];
                 for (shape, force) in self.displacement.residuals() {
                     let image = std::slice::from_ref(image);
-                    let shares = of_shape(self.asset, &self.elasticity, shape, image);
+                    let none = &mut SampleStress::default();
+                    let shares = of_shape(self.asset, &self.elasticity, shape, image, none);
                     for (number, share) in numbers.iter_mut().zip(shares) {
                         for (sum, force) in number.iter_mut().zip(force) {
                             *sum += share * force;
@@ -314,6 +316,7 @@ impl WeakPlace {
         let sample = |tet: u32| {
             let wall = wall_of(&body.asset, skin, config, tet as usize);
             Sample {
+                tet,
                 point: *body.asset.embedded_tet(tet as usize),
                 law: wall.map_or(Law::Solid, |wall| Law::Free(wall.normal)),
                 place: body.prepared.centroids[tet as usize],
@@ -347,6 +350,7 @@ impl WeakPlace {
             let by = across(sample.wall.as_ref().unwrap_or(&wall), sample.place);
             sample.point = shifted(&body.asset, &sample.point, by);
             sample.place += by;
+            sample.tet = NO_TET;
         }
         let by = across(&wall, here.place);
         Some(RowPoint {

@@ -20,6 +20,10 @@ use crate::stress::{Shape, dot};
 /// Cosine of the largest angle between a section and a crack that runs along it.
 pub(super) const ALONG: f32 = 0.7;
 
+/// Distance, in mean edges, and cosine of the angle up to which two planes have one section.
+const SAME_PLACE: f32 = 0.25;
+const SAME_WAY: f32 = 0.9986;
+
 /// Least distance of the cracked part's centroid from the middle of a column, over its height: a crack nearer to the middle is no edge crack.
 const ASIDE: f64 = 0.05;
 
@@ -69,6 +73,12 @@ impl Plane {
     pub(super) fn place(&self, at: Vec3) -> Vec2 {
         let off = at - self.origin;
         Vec2::from_array(self.axes.map(|axis| axis.dot(off)))
+    }
+
+    /// Returns true if a plane through a point, m, with this unit normal is the same, as far as a mesh with this mean edge, m, tells them apart.
+    pub(super) fn is_like(&self, at: Vec3, normal: Vec3, edge: f32) -> bool {
+        (at - self.origin).dot(self.normal).abs() < SAME_PLACE * edge
+            && normal.dot(self.normal).abs() > SAME_WAY
     }
 
     /// Returns true if a cut at a place, m, with this normal runs along the plane.

@@ -67,6 +67,11 @@ impl CrackSystem<'_> {
             .filter(|&id| self.cracks[id].section == Some(k))
             .collect();
         members.iter().for_each(|&id| self.measure(id));
+        let moved = self.mean_plane(&members, Some(plane));
+        if moved.is_some_and(|(origin, normal)| plane.is_like(origin, normal, self.edge)) {
+            self.sections[k as usize].found = cracked;
+            return;
+        }
         match self.section(&members, Some(plane), field) {
             Some(new) => self.sections[k as usize] = new,
             None => self.sections[k as usize].found = cracked,

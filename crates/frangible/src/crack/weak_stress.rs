@@ -1,15 +1,21 @@
 //! Stress at the weak points of a cluster at the steps of a batch: rows times amplitudes, and the parts of a motion beside its modes.
 
+use std::sync::Arc;
+
 use super::field::StressField;
 use crate::body::Body;
 use crate::near_field::Located;
-use crate::stress::{BATCH, ClusterRows, Frame, Lanes, MOST, STRIDE, Wide, of_shape};
+use crate::stress::{
+    BATCH, ClusterRows, Frame, Lanes, MOST, STRIDE, SampleStress, Shape, Wide, of_shape,
+};
 
 /// Contributions of one motion to the rows of the body, and room for their stress.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct WeakStress {
     /// Contributions to each cluster that was looked at.
     added: Vec<Option<Added>>,
+    /// Stress of each shape that follows a force, where flaws share samples.
+    samples: Vec<SampleStress>,
     /// Row after row.
     numbers: Vec<Lanes>,
     /// Room for shapes.
@@ -95,8 +101,9 @@ impl WeakStress {
         if self.added.is_empty() {
             self.added.resize(body.clusters.clusters.len(), None);
         }
-        let added =
-            self.added[cluster].get_or_insert_with(|| Added::new(body, field, cluster, rows));
+        let samples = &mut self.samples;
+        let added = self.added[cluster]
+            .get_or_insert_with(|| Added::new(body, field, cluster, rows, samples));
         let numbers = &mut self.numbers;
         numbers.clear();
         numbers.resize(rows.rows.padded(), Lanes::default());
@@ -286,10 +293,19 @@ impl NearPoint {
 
 impl Added {
     #[inline(never)]
-    fn new(body: &Body, field: &StressField, cluster: usize, rows: &ClusterRows) -> Self {
-        let of = |shape| of_shape(field.asset, &field.elasticity, shape, &rows.points);
-        let shapes = field.displacement.residuals().iter();
-        let residuals = shapes.map(|(shape, _)| of(shape)).collect();
+    fn new(
+        body: &Body,
+        field: &StressField,
+        cluster: usize,
+        rows: &ClusterRows,
+        samples: &mut Vec<SampleStress>,
+    ) -> Self {
+        let shapes = field.displacement.residuals();
+        samples.resize_with(shapes.len(), SampleStress::default);
+        let of = |((shape, _), samples): (&(Arc<Shape>, _), _)| {
+            of_shape(field.asset, &field.elasticity, shape, &rows.points, samples)
+        };
+        let residuals = shapes.iter().zip(samples).map(of).collect();
         let (mut near, mut pressed, mut row) = (Vec::new(), Vec::new(), 0);
         let points = body.clusters.tets(cluster).iter().zip(&rows.points);
         for (i, (&tet, point)) in (0..).zip(points) {

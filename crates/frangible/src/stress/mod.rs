@@ -42,7 +42,7 @@ pub(crate) use lanes::StressLanes;
 pub(crate) use place::{Places, WeakPlace, wall_of, weak_place};
 pub(crate) use principal::{MARGIN, limit, perpendicular_axes};
 pub use principal::{largest_eigenvalue, largest_eigenvalue_bound, principal_axes};
-pub(crate) use rows::{RowPoint, Rows, Sample, of_shape};
+pub(crate) use rows::{NO_TET, RowPoint, Rows, Sample, SampleStress, of_shape};
 pub(crate) use shadow::{Released, Shadow};
 pub use shadow::{STRETCHED, bent, share_beside, share_in_solid, share_left};
 pub(crate) use shape::Shape;

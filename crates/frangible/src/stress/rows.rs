@@ -12,6 +12,9 @@ use super::wall::Wall;
 use super::wide::{Wide, narrow, wide};
 use crate::asset::{Asset, EmbeddedPoint};
 
+/// No fracture tetrahedron.
+pub(crate) const NO_TET: u32 = u32::MAX;
+
 /// Rows that are summed side by side: each is a chain of sums that waits for itself.
 const GROUP: usize = 6;
 
@@ -32,6 +35,8 @@ pub(crate) struct RowPoint {
 /// A further sample point of a flaw.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sample {
+    /// Fracture tetrahedron at whose centroid it lies; [`NO_TET`] if it lies elsewhere.
+    pub(crate) tet: u32,
     pub(crate) point: EmbeddedPoint,
     pub(crate) law: Law,
     /// Its position, m.
@@ -222,33 +227,50 @@ impl Rows {
     }
 }
 
+/// Stress of a shape at samples that several flaws share.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct SampleStress {
+    /// Place of each fracture tetrahedron in the list; `u32::MAX` if its stress is not known yet.
+    places: Vec<u32>,
+    /// Pa/N.
+    known: Vec<Symmetric3>,
+}
+
+impl SampleStress {
+    /// Returns the stress at the centroid of a fracture tetrahedron, and computes it if it is not known yet.
+    #[inline(always)]
+    fn of(&mut self, asset: &Asset, tet: u32, compute: impl FnOnce() -> Symmetric3) -> Symmetric3 {
+        if self.places.is_empty() {
+            self.places.resize(asset.fracture.tets.len(), u32::MAX);
+        }
+        let place = &mut self.places[tet as usize];
+        if *place == u32::MAX {
+            *place = self.known.len() as u32;
+            self.known.push(compute());
+        }
+        self.known[*place as usize]
+    }
+}
+
 /// Stress of a shape of the body per newton at some points, Pa/N: row after row.
 pub(crate) fn of_shape(
     asset: &Asset,
     elasticity: &Elasticity,
     shape: &Shape,
     points: &[RowPoint],
+    samples: &mut SampleStress,
 ) -> Vec<f32> {
     let mut rows = Vec::new();
     for row_point in points {
-        let mut sums = [0.0; MOST];
         let (frame, share) = (row_point.frame, row_point.share());
-        for (point, law, _) in row_point.places() {
-            let element = point.element as usize;
-            let weights = point.shape_gradients(&asset.analysis.barycentric_gradients[element]);
-            let [first, others @ ..] = &asset.analysis.elements[element];
-            // The gradients of the shape functions add up to nothing.
-            let shared = Vec3::from_array(shape.at(asset, *first as usize));
-            let mut gradient = Mat3::ZERO;
-            for (&node, g) in others.iter().zip(&weights[1..]) {
-                let u = Vec3::from_array(shape.at(asset, node as usize)) - shared;
-                gradient.x_axis += u * g.x;
-                gradient.y_axis += u * g.y;
-                gradient.z_axis += u * g.z;
-            }
-            let strain = Symmetric3::from_mat3(gradient);
-            let stress = elasticity.linear(&strain.components(), law);
-            let stress = Symmetric3::from_components(stress);
+        let stress = stress_of(asset, elasticity, shape, (&row_point.point, row_point.law));
+        let mut sums = frame.numbers(&stress).map(|number| number * share);
+        for sample in &row_point.samples {
+            let compute = || stress_of(asset, elasticity, shape, (&sample.point, sample.law));
+            let stress = match sample.tet {
+                NO_TET => compute(),
+                tet => samples.of(asset, tet, compute),
+            };
             for (sum, number) in sums.iter_mut().zip(frame.numbers(&stress)) {
                 *sum += number * share;
             }
@@ -256,6 +278,30 @@ pub(crate) fn of_shape(
         rows.extend(&sums[..frame.count()]);
     }
     rows
+}
+
+/// Stress of a shape of the body per newton at a point with this law, Pa/N.
+#[inline(always)]
+fn stress_of(
+    asset: &Asset,
+    elasticity: &Elasticity,
+    shape: &Shape,
+    (point, law): (&EmbeddedPoint, Law),
+) -> Symmetric3 {
+    let element = point.element as usize;
+    let weights = point.shape_gradients(&asset.analysis.barycentric_gradients[element]);
+    let [first, others @ ..] = &asset.analysis.elements[element];
+    // The gradients of the shape functions add up to nothing.
+    let shared = Vec3::from_array(shape.at(asset, *first as usize));
+    let mut gradient = Mat3::ZERO;
+    for (&node, g) in others.iter().zip(&weights[1..]) {
+        let u = Vec3::from_array(shape.at(asset, node as usize)) - shared;
+        gradient.x_axis += u * g.x;
+        gradient.y_axis += u * g.y;
+        gradient.z_axis += u * g.z;
+    }
+    let strain = Symmetric3::from_mat3(gradient);
+    Symmetric3::from_components(elasticity.linear(&strain.components(), law))
 }
 
 widest! {
