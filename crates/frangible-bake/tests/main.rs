@@ -28,4 +28,5 @@ mod solids;
 mod sturm;
 mod supports;
 mod tempered;
+mod threads;
 mod walls;

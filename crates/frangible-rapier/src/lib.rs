@@ -101,6 +101,7 @@ mod loads;
 mod saved;
 mod snapshot;
 mod stepping;
+mod threads;
 mod timings;
 mod workshop;
 mod world;

@@ -27,6 +27,7 @@ use crate::loads::pushes::Push;
 use crate::loads::resting::Burden;
 use crate::stepping::after::line::Waiting;
 use crate::stepping::judge::Case;
+use crate::threads;
 use crate::timings::StepTimings;
 use crate::workshop::Workshop;
 
@@ -122,8 +123,11 @@ impl BreakableWorld {
     ///
     /// # Errors
     /// An invalid number in the configuration.
-    pub fn new(config: WorldConfig) -> Result<Self, WorldError> {
+    pub fn new(mut config: WorldConfig) -> Result<Self, WorldError> {
         config.validate()?;
+        if !config.fracture.threads.are_lent() {
+            config.fracture.threads = threads::lent();
+        }
         let mut physics = PhysicsWorld {
             gravity: config.gravity,
             ..PhysicsWorld::default()

@@ -2,6 +2,7 @@
 
 use crate::error::InputError;
 use crate::material::OutOfRange;
+use crate::threads::Threads;
 
 /// Settings of the fracture model. `Default` is the extended model; [`FractureConfig::as_in_the_paper`] is the paper's.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,6 +47,9 @@ pub struct FractureConfig {
     /// Number of pieces into which a tempered wall falls at first: clumps of dice that move together until something parts them. 1 to 10,000; never
     /// more than there are dice. Default 60.
     pub clumps: usize,
+    /// Threads that compute a break. Affects only speed: the result is bit-identical for any number. Default: the caller's alone.
+    #[doc(hidden)]
+    pub threads: Threads,
 }
 
 /// Model of the cracks.
@@ -112,6 +116,7 @@ impl Default for FractureConfig {
             load_duration: 1.0,
             crumb_share: 2e-4,
             clumps: 60,
+            threads: Threads::default(),
         }
     }
 }

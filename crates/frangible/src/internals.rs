@@ -116,6 +116,7 @@ pub use crate::outcome::{LookedAt, StageTimings};
 pub use crate::piece::{Elastic, PieceModel, Portion};
 pub use crate::refuse::{is_harmless, rest_margin_at_least};
 pub use crate::state::BodyState;
+pub use crate::threads::{Pool, Threads};
 pub use crate::tips::CrackFront;
 pub use crate::trace::{CrackTrace, ElementTrace};
 pub use frangible_material::{Fatigue, Preset, UnknownMaterial};

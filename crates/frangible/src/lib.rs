@@ -44,6 +44,7 @@ mod rigid;
 mod rng;
 mod state;
 mod stress;
+mod threads;
 mod tips;
 mod trace;
 

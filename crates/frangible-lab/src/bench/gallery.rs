@@ -5,7 +5,7 @@ use std::hint::black_box;
 use std::sync::Arc;
 use std::time::Instant;
 
-use frangible::internals::StageTimings;
+use frangible::internals::{StageTimings, Threads};
 use frangible::{Body, Breakable, Contact, FractureConfig, Outcome, impact, would_break};
 use frangible_scenes::{FirstBreak, bake, breakable, first_break, scene};
 use serde_json::{Value, json};
@@ -94,7 +94,8 @@ impl Blow {
         let baked = bake(&scene)?;
         let first = first_break(&scene, &baked, &mut |_| {})?;
         let nothing = || crate::Error::from(format!("nothing breaks in the scene `{name}`"));
-        let first = first.ok_or_else(nothing)?;
+        let mut first = first.ok_or_else(nothing)?;
+        first.config.threads = Threads::default();
         let spec = scene.bodies.iter().find(|body| body.name == first.name);
         let spec = spec.ok_or_else(nothing)?;
         let anew = || breakable(spec, &Arc::clone(first.body.asset()));

@@ -1,13 +1,13 @@
 //! Weak points that may crack, or raise the peak, at the steps of a batch: all steps of a point at once, so that the
-//! arithmetic runs over the steps side by side. What cracks do in the meantime only takes suspects away: release
+//! arithmetic runs over the steps side by side. Parts of the body are looked at on [threads](crate::threads). What cracks do in the meantime only takes suspects away: release
 //! waves never raise the largest tension (λ_max(Q σ Q) ≤ max(λ_max(σ), 0), `stress/shadow.rs`).
 
 use super::field::StressField;
 use super::initiation::Peak;
 use super::system::CrackSystem;
-use super::weak_stress::{Rest, WeakStress};
+use super::weak_stress::{Added, Rest, Room, WeakStress};
 use crate::body::Body;
-use crate::stress::{BATCH, ClusterRows, Frame, Lanes, Steps, StressLanes, Wide, limit};
+use crate::stress::{BATCH, Frame, Lanes, LawRows, Steps, StressLanes, Wide, limit};
 
 /// A weak point whose stress may pass its strength, or the peak so far, at a step of a batch.
 #[derive(Clone, Copy, Debug)]
@@ -33,7 +33,7 @@ pub(crate) struct Suspects {
 
 impl Suspects {
     /// Looks at the points of the clusters that survive at any step of the field's batch, but for those that are over by `now`, s, when the
-    /// batch begins. `survivors`: places of the clusters in the body's list, bit k set where step k needs a look.
+    /// batch begins. `survivors`: places of the clusters in the body's list, rising, bit k set where step k needs a look.
     pub(crate) fn find(
         &mut self,
         body: &Body,
@@ -45,15 +45,95 @@ impl Suspects {
     ) {
         self.points.clear();
         self.of_step.iter_mut().for_each(Vec::clear);
-        look(Look {
-            suspects: self,
+        let tets = |cluster: u32| body.clusters.tets(cluster as usize);
+        let is_over = |tet: &u32| system.is_over(*tet, now);
+        let survivors = survivors.filter(|(cluster, _)| !tets(*cluster).iter().all(is_over));
+        let survivors: Vec<(u32, Steps)> = survivors.collect();
+        let modes = field.displacement.amplitudes().len();
+        let Some(laws) = body.rows.of(body, field.config, modes) else {
+            for (cluster, steps) in survivors {
+                let places = body.clusters.places(cluster as usize);
+                for (place, tet) in places.zip(tets(cluster)).filter(|(_, tet)| !is_over(tet)) {
+                    self.by_displacement(body, field, (place, *tet), steps, peak);
+                }
+            }
+            return;
+        };
+        let threads = &field.config.threads;
+        let count = |(cluster, _): &(u32, Steps)| tets(*cluster).len();
+        let points: usize = survivors.iter().map(count).sum();
+        let parts = (points / LEAST_PART).min(PARTS * threads.count());
+        let parts = if threads.count() > 1 { parts.max(1) } else { 1 };
+        let mut stress = std::mem::take(&mut self.stress);
+        stress.begin(body, field, parts);
+        let mut rest = (&survivors[..], &mut stress.added[..], 0, points);
+        let mut tasks = Vec::with_capacity(parts);
+        for (room, left) in stress.rooms.iter_mut().zip((1..=parts).rev()) {
+            let (all, added, first, points) = rest;
+            // A fair share of the points that are left.
+            let (mut own, mut taken) = (0, 0);
+            while own < all.len() && (left == 1 || taken * left < points) {
+                taken += count(&all[own]);
+                own += 1;
+            }
+            let (own, others) = all.split_at(own);
+            let until = own.last().map_or(first, |(last, _)| *last as usize + 1);
+            let (added, later) = added.split_at_mut(until - first);
+            rest = (others, later, until, points - taken);
+            tasks.push(Part {
+                survivors: own,
+                added,
+                first,
+                room,
+            });
+        }
+        let look = Look {
             body,
             field,
-            survivors,
             system,
             now,
             peak,
-        });
+            farthest: &stress.farthest,
+        };
+        let finds = threads.map(tasks, || (), |(), part| look_at(look, part, laws));
+        self.stress = stress;
+        for finds in finds {
+            let [most, felt] = finds.passed_over;
+            self.passed_over = [self.passed_over[0].max(most), self.passed_over[1].max(felt)];
+            for found in finds.found {
+                match found {
+                    Found::Suspect(suspect, passing) => self.note(suspect, passing),
+                    Found::ByDisplacement(place, tet, steps) => {
+                        self.by_displacement(body, field, (place, tet), steps, peak);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Looks at a point by displacement gradients, where rows do not hold. A function of its own: inlined at each of its calls it took a third of
+    /// the time in which the crate compiles.
+    #[inline(never)]
+    fn by_displacement(
+        &mut self,
+        body: &Body,
+        field: &mut StressField,
+        (place, tet): (usize, u32),
+        steps: Steps,
+        peak: Peak,
+    ) {
+        let state = at_weak_point(field, tet);
+        let bounds = state.tension_bounds();
+        let passing = Self::passing(body, tet, &bounds, steps, peak);
+        if passing != 0 {
+            let suspect = Suspect {
+                place: place as u32,
+                tet,
+                state,
+                bounds,
+            };
+            self.note(suspect, passing);
+        }
     }
 
     /// Tension at a point up to which neither a crack starts there nor the peak is passed, Pa.
@@ -100,20 +180,53 @@ fn sum(mut a: Lanes, b: &Lanes) -> Lanes {
     a
 }
 
+/// Least number of points in a part of the body that is looked at by itself.
+const LEAST_PART: usize = 512;
+
+/// Parts per thread: the longest of them ends soon after the others.
+const PARTS: usize = 3;
+
 /// The look at all points of some clusters.
-struct Look<'a, 'f, 's, I> {
-    suspects: &'a mut Suspects,
+#[derive(Clone, Copy)]
+struct Look<'a, 'f, 's> {
     body: &'a Body,
-    field: &'a mut StressField<'f>,
-    survivors: I,
+    field: &'a StressField<'f>,
     system: &'a CrackSystem<'s>,
     now: f64,
     peak: Peak,
+    /// Largest amplitude of each mode in the batch, m·√kg.
+    farthest: &'a [f32],
+}
+
+/// Part of the clusters, and what is kept of them.
+struct Part<'a> {
+    /// Places of the clusters in the body's list, rising, and the steps to look at.
+    survivors: &'a [(u32, Steps)],
+    /// Contributions to the clusters from place `first` on.
+    added: &'a mut [Option<Added>],
+    first: usize,
+    room: &'a mut Room,
+}
+
+/// Point that a look has found.
+enum Found {
+    /// It may pass its strength, or the peak, at these steps.
+    Suspect(Suspect, Steps),
+    /// Rows do not hold for it.
+    ByDisplacement(usize, u32, Steps),
+}
+
+/// Points that a look has found, in the order of the clusters, and the largest bound of those that it has passed over, Pa, and as the weakest point
+/// would feel it.
+#[derive(Default)]
+struct Finds {
+    found: Vec<Found>,
+    passed_over: [f32; 2],
 }
 
 widest! {
-    fn look[I: Iterator<Item = (u32, Steps)>](look: Look<'_, '_, '_, I>) {
-        look.run();
+    fn look_at(look: Look<'_, '_, '_>, part: Part<'_>, laws: &LawRows) -> Finds {
+        look.run(part, laws)
     }
 
     /// The stress at a weak point, by gradients.
@@ -122,54 +235,43 @@ widest! {
     }
 }
 
-impl<I: Iterator<Item = (u32, Steps)>> Look<'_, '_, '_, I> {
-    #[inline(always)]
-    fn run(mut self) {
-        let (body, config) = (self.body, self.field.config);
-        let modes = self.field.displacement.amplitudes().len();
-        let laws = body.rows.of(body, config, modes);
-        if laws.is_some() {
-            self.suspects.stress.begin(self.field);
-        }
-        while let Some((cluster, steps)) = self.survivors.next() {
-            let cluster = cluster as usize;
-            let mut tets = body.clusters.tets(cluster).iter();
-            if tets.all(|&tet| self.is_over(tet)) {
-                continue;
-            }
-            if let Some(laws) = laws {
-                self.by_rows(cluster, laws.cluster(body, config, cluster), steps);
-                continue;
-            }
-            let tets = body.clusters.tets(cluster);
-            for (place, &tet) in body.clusters.places(cluster).zip(tets) {
-                if !self.is_over(tet) {
-                    self.by_displacement(place, tet, steps);
-                }
-            }
-        }
-    }
-}
-
-impl<I> Look<'_, '_, '_, I> {
+impl Look<'_, '_, '_> {
     #[inline(always)]
     fn is_over(&self, tet: u32) -> bool {
         self.system.is_over(tet, self.now)
     }
 
     #[inline(always)]
-    fn by_rows(&mut self, cluster: usize, rows: &ClusterRows, steps: Steps) {
-        let body = self.body;
-        let mut stress = std::mem::take(&mut self.suspects.stress);
+    fn run(self, mut part: Part<'_>, laws: &LawRows) -> Finds {
+        let mut finds = Finds::default();
+        for &(cluster, steps) in part.survivors {
+            self.by_rows(cluster as usize, laws, steps, &mut part, &mut finds);
+        }
+        finds
+    }
+
+    #[inline(always)]
+    fn by_rows(
+        &self,
+        cluster: usize,
+        laws: &LawRows,
+        steps: Steps,
+        part: &mut Part<'_>,
+        finds: &mut Finds,
+    ) {
+        let (body, field) = (self.body, self.field);
         let limit = |tet| Suspects::limit(body, tet, self.peak);
-        stress.look(body, self.field, cluster, rows, limit);
-        let mut seen = stress.points(cluster);
+        let rows = laws.cluster(body, field.config, cluster);
+        let added = &mut part.added[cluster - part.first];
+        let of = (body, field);
+        (part.room).look(of, (cluster, rows), self.farthest, added, limit);
+        let mut seen = part.room.points(added.as_ref());
         let mut pressed = seen.pressed().iter();
         let mut next = pressed.next();
         let mut doubts = 0;
         let points = (body.clusters.places(cluster)).zip(body.clusters.tets(cluster));
         for ((i, (place, &tet)), &frame) in (0..).zip(points).zip(&rows.frames) {
-            let point = seen.next(self.field, frame);
+            let point = seen.next(field, frame);
             if self.is_over(tet) {
                 if next == Some(&i) {
                     next = pressed.next();
@@ -178,19 +280,23 @@ impl<I> Look<'_, '_, '_, I> {
             }
             if next == Some(&i) {
                 next = pressed.next();
-                self.by_displacement(place, tet, steps);
+                let found = Found::ByDisplacement(place, tet, steps);
+                finds.found.push(found);
                 continue;
             }
             let exact;
             let mut numbers = point.numbers;
             let holds = match &point.left_out {
                 Rest::Nothing => None,
-                Rest::OfAny(left_out) => Some(
-                    self.is_below(frame, numbers, left_out, tet, steps)
-                        || seen
-                            .left_out_of(self.field, &point)
-                            .is_some_and(|own| self.is_below(frame, numbers, &own, tet, steps)),
-                ),
+                Rest::OfAny(left_out) => {
+                    let own = || seen.left_out_of(field, &point);
+                    Some(
+                        self.is_below(frame, numbers, left_out, (tet, steps), finds)
+                            || own().is_some_and(|own| {
+                                self.is_below(frame, numbers, &own, (tet, steps), finds)
+                            }),
+                    )
+                }
                 // Much is left out: nothing of it is to be taken for the largest tension that was passed over.
                 Rest::Own(left_out) => {
                     let bounds = sum(frame.tension_bounds(numbers), left_out);
@@ -202,7 +308,7 @@ impl<I> Look<'_, '_, '_, I> {
                 Some(true) => continue,
                 Some(false) => {
                     doubts += 1;
-                    exact = seen.exact(self.field, rows, &point);
+                    exact = seen.exact(field, rows, &point);
                     numbers = &exact;
                 }
             }
@@ -210,29 +316,30 @@ impl<I> Look<'_, '_, '_, I> {
             let passing = Suspects::passing(body, tet, &bounds, steps, self.peak);
             if passing != 0 {
                 let mut state = frame.stress(numbers);
-                self.field.elasticity.set_energy(&mut state);
+                field.elasticity.set_energy(&mut state);
                 let suspect = Suspect {
                     place: place as u32,
                     tet,
                     state,
                     bounds,
                 };
-                self.suspects.note(suspect, passing);
+                finds.found.push(Found::Suspect(suspect, passing));
             }
         }
-        stress.doubted(cluster, doubts, rows.frames.len());
-        self.suspects.stress = stress;
+        if let Some(added) = added {
+            added.doubted(doubts, rows.frames.len());
+        }
     }
 
     /// Returns true if bounds show that a point stays below its strength at all steps to look at.
     #[inline(always)]
     fn is_below(
-        &mut self,
+        &self,
         frame: Frame,
         numbers: &[Lanes],
         left_out: &Lanes,
-        tet: u32,
-        steps: Steps,
+        (tet, steps): (u32, Steps),
+        finds: &mut Finds,
     ) -> bool {
         let resistance = &self.body.resistance;
         let strength = resistance.strength(tet);
@@ -246,34 +353,10 @@ impl<I> Look<'_, '_, '_, I> {
             return false;
         }
         // No `clamp`, which would be a call.
-        self.pass_over(tet, Wide(bounds).largest().max(0.0).min(limit));
-        true
-    }
-
-    /// Takes note of a point whose tension is no more than this, Pa.
-    #[inline(always)]
-    fn pass_over(&mut self, tet: u32, most: f32) {
-        let resistance = &self.body.resistance;
-        let felt = resistance.as_weakest(most, resistance.strength(tet));
-        let passed_over = &mut self.suspects.passed_over;
+        let most = Wide(bounds).largest().max(0.0).min(limit);
+        let felt = resistance.as_weakest(most, strength);
+        let passed_over = &mut finds.passed_over;
         *passed_over = [passed_over[0].max(most), passed_over[1].max(felt)];
-    }
-
-    /// Looks at a point by displacement gradients, where rows do not hold. A function of its own: inlined at each of its calls it took a third of
-    /// the time in which the crate compiles.
-    #[inline(never)]
-    fn by_displacement(&mut self, place: usize, tet: u32, steps: Steps) {
-        let state = at_weak_point(self.field, tet);
-        let bounds = state.tension_bounds();
-        let passing = Suspects::passing(self.body, tet, &bounds, steps, self.peak);
-        if passing != 0 {
-            let suspect = Suspect {
-                place: place as u32,
-                tet,
-                state,
-                bounds,
-            };
-            self.suspects.note(suspect, passing);
-        }
+        true
     }
 }

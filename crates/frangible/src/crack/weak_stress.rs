@@ -13,17 +13,24 @@ use crate::stress::{
 #[derive(Clone, Debug, Default)]
 pub(crate) struct WeakStress {
     /// Contributions to each cluster that was looked at.
-    added: Vec<Option<Added>>,
+    pub(super) added: Vec<Option<Added>>,
+    /// Largest amplitude of each mode in the batch, m·√kg.
+    pub(super) farthest: Vec<f32>,
+    /// Workspace of each part of the body that is looked at.
+    pub(super) rooms: Vec<Room>,
+}
+
+/// Stress of one cluster after the other, and workspace for it.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Room {
     /// Stress of each shape that follows a force, where flaws share samples.
     samples: Vec<SampleStress>,
     /// Row after row.
     numbers: Vec<Lanes>,
-    /// Room for shapes.
-    room: Vec<Lanes>,
+    /// Workspace for shapes.
+    shapes: Vec<Lanes>,
     /// Part of the stress that the numbers leave out.
     left_out: LeftOut,
-    /// Largest amplitude of each mode in the batch, m·√kg.
-    farthest: Vec<f32>,
     /// Largest tension that the modes add at each point of the cluster, Pa.
     most: Vec<f32>,
 }
@@ -48,7 +55,7 @@ const WAIT: u8 = 4;
 
 /// Contributions of a motion in a cluster.
 #[derive(Clone, Debug)]
-struct Added {
+pub(super) struct Added {
     /// The stress in each row of every shape that follows a force, Pa/N.
     residuals: Vec<Vec<f32>>,
     near: Vec<NearPoint>,
@@ -76,34 +83,36 @@ pub(super) struct NearPoint {
 }
 
 impl WeakStress {
-    /// Notes the largest amplitude of each mode in the batch of a field.
+    /// Notes the largest amplitude of each mode in the batch of a field, and makes room for so many parts.
     #[inline(always)]
-    pub(super) fn begin(&mut self, field: &StressField) {
+    pub(super) fn begin(&mut self, body: &Body, field: &StressField, parts: usize) {
         self.farthest.clear();
         for q in field.displacement.amplitudes() {
             let mut sizes = *q;
             sizes.iter_mut().for_each(|q| *q = q.abs());
             self.farthest.push(Wide(sizes).largest());
         }
+        self.added.resize(body.clusters.clusters.len(), None);
+        if self.rooms.len() < parts {
+            self.rooms.resize(parts, Room::default());
+        }
     }
+}
 
+impl Room {
     /// Computes the stress at all points of the cluster at place `cluster` of the body's list, or its bounds. `limit`: tension at the
-    /// point of a weak tetrahedron below which it does not matter, Pa.
+    /// point of a weak tetrahedron below which it does not matter, Pa; `farthest`: largest amplitude of each mode in the batch, m·√kg.
     #[inline(always)]
     pub(super) fn look(
         &mut self,
-        body: &Body,
-        field: &StressField,
-        cluster: usize,
-        rows: &ClusterRows,
+        (body, field): (&Body, &StressField),
+        (cluster, rows): (usize, &ClusterRows),
+        farthest: &[f32],
+        added: &mut Option<Added>,
         limit: impl Fn(u32) -> f32,
     ) {
-        if self.added.is_empty() {
-            self.added.resize(body.clusters.clusters.len(), None);
-        }
         let samples = &mut self.samples;
-        let added = self.added[cluster]
-            .get_or_insert_with(|| Added::new(body, field, cluster, rows, samples));
+        let added = added.get_or_insert_with(|| Added::new(body, field, cluster, rows, samples));
         let numbers = &mut self.numbers;
         numbers.clear();
         numbers.resize(rows.rows.padded(), Lanes::default());
@@ -117,12 +126,12 @@ impl WeakStress {
         self.left_out = LeftOut::Nothing;
         if field.config.culling && added.wait == 0 {
             if let Some(coarse) = rows.coarse(body) {
-                let shapes = coarse.add(amplitudes, &mut self.room, numbers);
+                let shapes = coarse.add(amplitudes, &mut self.shapes, numbers);
                 let everything = with_near(shapes, &added.nearest, field);
                 self.left_out = LeftOut::OfShapes([shapes, everything]);
                 return;
             }
-            rows.sizes().bounds(&self.farthest, &mut self.most);
+            rows.sizes().bounds(farthest, &mut self.most);
             let tets = body.clusters.tets(cluster);
             let mut doubts = 0;
             for (&tet, &most) in tets.iter().zip(&self.most) {
@@ -140,23 +149,14 @@ impl WeakStress {
         }
     }
 
-    /// Points of a cluster that was looked at, one after the other.
-    pub(super) fn points(&self, cluster: usize) -> Points<'_> {
+    /// Points of the cluster that was looked at, one after the other.
+    pub(super) fn points<'a>(&'a self, added: Option<&'a Added>) -> Points<'a> {
         Points {
             stress: self,
-            added: self.added[cluster].as_ref(),
+            added,
             point: 0,
             row: 0,
             near: 0,
-        }
-    }
-
-    /// Waits a while before the cluster is bounded again, if too many of its points were in doubt.
-    pub(super) fn doubted(&mut self, cluster: usize, doubts: usize, points: usize) {
-        if let Some(added) = &mut self.added[cluster]
-            && MANY * doubts > points
-        {
-            added.wait = WAIT;
         }
     }
 }
@@ -180,7 +180,7 @@ fn with_near(mut most: Lanes, near: &[NearPoint], field: &StressField) -> Lanes 
 
 /// The points of a cluster.
 pub(super) struct Points<'a> {
-    stress: &'a WeakStress,
+    stress: &'a Room,
     added: Option<&'a Added>,
     point: usize,
     row: usize,
@@ -292,6 +292,13 @@ impl NearPoint {
 }
 
 impl Added {
+    /// Waits a while before the cluster is bounded again, if too many of its points were in doubt.
+    pub(super) fn doubted(&mut self, doubts: usize, points: usize) {
+        if MANY * doubts > points {
+            self.wait = WAIT;
+        }
+    }
+
     #[inline(never)]
     fn new(
         body: &Body,

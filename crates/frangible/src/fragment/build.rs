@@ -10,6 +10,7 @@ use crate::body::Prepared;
 use crate::crack::{Crack, CrackSystem};
 use crate::fragment::Fragment;
 use crate::mesh::{Division, Parts};
+use crate::threads::Threads;
 
 /// Fragments, and the data about them that later steps need.
 pub(crate) struct Built {
@@ -25,7 +26,8 @@ pub(crate) struct Built {
 
 /// Builds all fragments. `prepared`: of the body as it was baked.
 pub(crate) fn build(system: &CrackSystem, labels: &Labels, prepared: &Prepared) -> Built {
-    build_cracked(system.asset, &system.cracks, labels, prepared)
+    let threads = &system.config.threads;
+    build_cracked(system.asset, &system.cracks, labels, prepared, threads)
 }
 
 /// Builds all fragments of a body with these cracks.
@@ -34,6 +36,7 @@ pub(crate) fn build_cracked(
     cracks: &[Crack],
     labels: &Labels,
     prepared: &Prepared,
+    threads: &Threads,
 ) -> Built {
     let (asset, portion) = (body.root(), body.portion.as_deref());
     let mut table = PointTable::new(&asset.fracture, &labels.cuts, portion);
@@ -47,10 +50,12 @@ pub(crate) fn build_cracked(
         Some(_) => drafts.iter().map(|draft| draft.inner.clone()).collect(),
         None => Vec::new(),
     };
-    let mut finisher = Finisher::new(&table, asset.material.density);
-    let numbered = (0..).zip(drafts);
-    let finished = numbered.map(|(label, draft)| finisher.finish(draft, labels, label));
-    let mut finished: Vec<(Fragment, Trace)> = finished.collect();
+    let numbered: Vec<(u32, Draft)> = (0..).zip(drafts).collect();
+    let finisher = || Finisher::new(&table, asset.material.density);
+    let mut finished: Vec<(Fragment, Trace)> =
+        threads.map(numbered, finisher, |finisher, (label, draft)| {
+            finisher.finish(draft, labels, label)
+        });
     // Stable: equal volumes stay in the order of their labels.
     finished.sort_by(|a, b| b.0.mass.volume.total_cmp(&a.0.mass.volume));
     let (mut fragments, traces): (Vec<_>, Vec<Trace>) = finished.into_iter().unzip();

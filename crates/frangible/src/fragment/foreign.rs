@@ -10,6 +10,7 @@ use crate::body::Body;
 use crate::crack::Known;
 use crate::fragment::Fragment;
 use crate::state::Cuts;
+use crate::threads::Threads;
 
 /// An edge of the fracture mesh, its lower node first, and the place where it is cut, from there (0) to the other node (1).
 pub type CutEdge = ([u32; 2], f64);
@@ -36,7 +37,7 @@ pub fn pieces_of_cuts(
         undrawn,
         traces,
         ..
-    } = build_cracked(asset, &[], &labels, prepared);
+    } = build_cracked(asset, &[], &labels, prepared, &Threads::default());
     if let (Some(surface), Some(undrawn)) = (&asset.render, undrawn) {
         draw(surface, prepared, &mut fragments, undrawn);
     }
