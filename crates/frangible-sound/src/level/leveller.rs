@@ -46,7 +46,8 @@ pub struct LevellerReport {
 /// crash plays the rest below the noise of a room. Therefore
 ///
 /// - sounds whose peaks are below −6 dB of full scale are raised by half of what they lack (a ratio of 2 : 1), at most by 18 dB. The
-///   level on which that hangs rises at once and falls by 20 dB/s, so that the decay of a tone becomes slower by at most half as much;
+///   level on which that hangs rises at once, to full scale and no further, and falls by 20 dB/s, so that the decay of a tone becomes slower by at
+///   most half as much, and what follows a click is raised as soon as what follows a crash;
 /// - samples above −9 dB are bent more and more, and stay below −3 dB, so that what lies between them hardly exceeds full scale. Peaks more than
 ///   12 dB above that are first limited by the gain, which begins to fall one millisecond before and returns with a time constant of 30 ms.
 ///
@@ -164,7 +165,7 @@ impl Leveller {
         }
         self.peak = self.peak.max(peak);
         peak /= self.full_scale;
-        self.level = peak.max(self.stays * self.level);
+        self.level = peak.min(1.0).max(self.stays * self.level);
         let raised = (LOUD / self.level.max(1e-30)).sqrt().clamp(1.0, MOST);
         let wanted = raised.min(DRIVEN / peak.max(1e-30));
         self.gain = wanted.min(self.gain + self.release * (wanted - self.gain));

@@ -18,7 +18,7 @@ pub const TARGET: f64 = -16.0;
 const TRUE_PEAK: f64 = -1.0;
 
 /// Most that full scale may lie below the peak, dB. A click of which more would have to be taken to reach a loudness stays softer.
-const MOST_LIMITED: f64 = 24.0;
+const MOST_LIMITED: f64 = 36.0;
 
 /// Trials in which full scale is found, the error with which it is good enough, LU, and the range of the growth of loudness with the
 /// gain, LU/dB: the leveller takes some of it.
@@ -52,7 +52,7 @@ pub struct Levelled {
 /// Levels pressures, Pa, with interleaved channels, to an integrated loudness, LUFS, with a [`Leveller`].
 ///
 /// Full scale is found by trial, so that the samples have that loudness within 0.5 LU and a true peak of at most −1 dB. Where the peak would be more
-/// than 24 dB above full scale, the sound stays softer: a click alone does not become loud. Silence stays silence. Pressures that are all
+/// than 36 dB above full scale, the sound stays softer: a click alone does not become loud. Silence stays silence. Pressures that are all
 /// larger by a factor give the same samples but for rounding.
 ///
 /// # Errors
