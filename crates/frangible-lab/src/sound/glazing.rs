@@ -30,9 +30,9 @@ pub struct HeardGlass {
     pub pieces: usize,
     /// Dice that were heard when they came loose, and when they met something.
     pub dice: [u64; 2],
-    /// Touches of pieces in the second after the break, those of dice counted one by one.
-    pub touches_per_s: f64,
-    /// Loudest pressure, dB over 20 µPa, and levels of the crash and of the fall, dB.
+    /// Touches of pieces in the second after the break, and dice that met something, over the time that was simulated, 1/s.
+    pub touches_per_s: [f64; 2],
+    /// Loudest pressure, dB over 20 µPa.
     pub loudest_db: f64,
     /// Level of the loudest millisecond, of the crash's 20 ms, and of the fall, dB over 20 µPa.
     pub levels_db: [f64; 3],
@@ -96,7 +96,6 @@ impl HeardGlass {
         let broke = broke.map_or(0.0, |blow| blow.time);
         let touches = run.recording.touches.iter();
         let soon = touches.filter(|touch| (broke..broke + 1.0).contains(&touch.time));
-        let plain = soon.count() as f64;
         let spectrum = Spectrum::of(part(FALL), rate);
         Ok(Self {
             glass,
@@ -107,11 +106,10 @@ impl HeardGlass {
                 .filter(|n| !n.visible.is_empty())
                 .count(),
             dice: sounded.dice,
-            touches_per_s: if sounded.dice[0] > 0 {
-                sounded.dice[1] as f64 / run.simulated.max(1e-3)
-            } else {
-                plain
-            },
+            touches_per_s: [
+                soon.count() as f64,
+                sounded.dice[1] as f64 / run.simulated.max(1e-3),
+            ],
             loudest_db: sounded.peak_level(),
             levels_db: [most, level(part(CRASH)), level(part(FALL))],
             crash_s: SHORT * (over - first) as f64,
