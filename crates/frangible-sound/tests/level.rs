@@ -283,8 +283,8 @@ fn what_follows_a_click_is_raised_within_two_seconds() {
 
 #[test]
 fn a_few_thuds_reach_the_loudness() {
-    // Four thuds of 150 Hz that are over in 20 ms each, within four seconds.
-    let thuds = tone(4.0, 150.0, |time| (-(time % 1.0) / 4e-3).exp());
+    // Four thuds of 300 Hz that are over in 30 ms each, within four seconds.
+    let thuds = tone(4.0, 300.0, |time| (-(time % 1.0) / 6e-3).exp());
     let levelled = by_loudness(&thuds, 2, RATE, TARGET).expect("a level");
     let loudness = levelled.loudness.integrated.expect("loud enough");
     assert!((loudness - TARGET).abs() < 0.5, "{loudness} LUFS");
