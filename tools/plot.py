@@ -3,8 +3,8 @@
 
     python3 tools/plot.py [NAME ...]
 
-NAME is a data file of docs/data without its ending; all of those that are there without one. Needs matplotlib; `sound` also needs the
-sounds that `frangible-lab sound` leaves in target/lab/sound.
+NAME is a data file of docs/data without its ending; all of those that are there without one. Needs matplotlib; `sound` and `levels` also need the
+sounds that the laboratory leaves in target/lab/sound.
 """
 
 import json
@@ -116,7 +116,7 @@ def recursive(data):
     save("recursive/time.png")
 
 
-def sound(data):
+def levels(data):
     for scene in sorted({row["scene"] for row in data["levels"]}):
         plt.figure(figsize=(7.6, 4.2))
         for i, row in enumerate(r for r in data["levels"] if r["scene"] == scene):
@@ -127,8 +127,17 @@ def sound(data):
             plt.plot([time[k] for k in landings], [row["levels_db"][k] for k in landings], MARKERS[i], color=COLOURS[i], markersize=4)
         label(scene, "time, s", "level of 20 ms, dB over full scale")
         save(f"sound/level-{scene}.png")
-    marks = {scene["name"]: scene["blows_s"] for scene in data["scenes"]}
+    spectrograms({}, lambda name: name.startswith("window-"))
+
+
+def sound(data):
+    spectrograms({scene["name"]: scene["blows_s"] for scene in data["scenes"]}, lambda name: not name.startswith("window-"))
+
+
+def spectrograms(marks, drawn):
     for path in sorted(SOUNDS.glob("*.wav")):
+        if not drawn(path.stem):
+            continue
         with wave.open(str(path)) as file:
             rate, raw = file.getframerate(), file.readframes(file.getnframes())
         samples = memoryview(raw).cast("h")
@@ -166,7 +175,7 @@ def soak(data):
 
 
 def main():
-    drawn = {"near-field": near_field, "verification": verification, "experiments": experiments, "recursive": recursive, "sound": sound, "figures": figures, "soak": soak}
+    drawn = {"near-field": near_field, "verification": verification, "experiments": experiments, "recursive": recursive, "sound": sound, "levels": levels, "figures": figures, "soak": soak}
     for name in sys.argv[1:] or drawn:
         if name not in drawn:
             sys.exit(f"there is nothing to draw of `{name}`; names: {', '.join(drawn)}")

@@ -48,7 +48,7 @@ pub struct MaterialLoss {
     /// Times in which a tone falls by 60 dB at 1 and at 10 kHz by the material alone, s.
     pub decay_s: [f64; 2],
     /// Published loss factors, least and greatest.
-    pub published: Option<[f64; 2]>,
+    pub published: [Option<f64>; 2],
     /// Their source.
     pub source: &'static str,
 }
@@ -63,7 +63,7 @@ pub struct OctaveDecay {
     /// Number of tones.
     pub tones: usize,
     /// Mean of the times in which they fall by 60 dB, s: in all, and by the material alone.
-    pub decay_s: Option<[f64; 2]>,
+    pub decay_s: [Option<f64>; 2],
     /// Part of the loss that is radiated, in the mean.
     pub radiated: Option<f64>,
     /// The times by the greatest and by the least published loss factor, at the middle of the octave, s.
@@ -72,14 +72,14 @@ pub struct OctaveDecay {
 
 /// Losses of materials.
 pub(super) fn materials() -> Vec<MaterialLoss> {
-    let row = |(name, published, source): (&'static str, _, _)| {
+    let row = |(name, published, source): (&'static str, Option<[f64; 2]>, _)| {
         let damping = AudibleDamping::published(name).unwrap_or_default().0;
         let loss = AT.map(|f| damping.loss(TAU * f));
         MaterialLoss {
             material: name,
             loss_factor: [0, 1].map(|k| loss[k] / (TAU * AT[k])),
             decay_s: loss.map(|loss| 6.0 * LN_10 / loss),
-            published,
+            published: [0, 1].map(|k| published.map(|range| range[k])),
             source,
         }
     };
@@ -116,7 +116,7 @@ pub(super) fn shards() -> Result<Vec<OctaveDecay>> {
                 mass_kg: mass,
                 octave_hz: octave,
                 tones: modes.len(),
-                decay_s: all.zip(alone).map(|(all, alone)| [all, alone]),
+                decay_s: [all, alone],
                 radiated: mean(&|mode| mode.radiated / mode.loss),
                 published_s: [1, 0].map(|k| 6.0 * LN_10 / (published[k] * TAU * octave)),
             });

@@ -80,7 +80,7 @@ impl HeardLevel {
                 "full_scale_db": self.full_scale[k],
                 "integrated_lufs": self.loudness[k].integrated,
                 "true_peak_db": self.loudness[k].true_peak,
-                "reduced_raised_db": (k == 1).then_some(self.changed),
+                "reduced_raised_db": self.changed.map(|changed| (k == 1).then_some(changed)),
                 "crash_db": self.crash[k],
                 "landings_below_db": self.below(k),
                 "levels_db": self.levels[k].iter().map(|l| l.round()).collect::<Vec<_>>(),
