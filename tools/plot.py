@@ -23,6 +23,8 @@ DOCS = ROOT / "docs"
 SOUNDS = ROOT / "target" / "lab" / "sound"
 # Okabe and Ito's colours, which the colour-blind tell apart too.
 COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"]
+# Of spectrograms: silence has no level, and is as black as what is soft.
+SILENT = plt.get_cmap("magma").with_extremes(bad="black")
 MARKERS = ["s", "o", "^", "D", "v", "P"]
 plt.rcParams.update({"figure.figsize": (8, 6), "axes.grid": True, "grid.alpha": 0.3, "axes.prop_cycle": plt.cycler(color=COLOURS)})
 
@@ -142,7 +144,7 @@ def spectrograms(marks, drawn):
             rate, raw = file.getframerate(), file.readframes(file.getnframes())
         samples = memoryview(raw).cast("h")
         plt.figure(figsize=(7.6, 4.2))
-        levels = plt.specgram(samples, NFFT=1024, Fs=rate, noverlap=768, cmap="magma")[3]
+        levels = plt.specgram(samples, NFFT=1024, Fs=rate, noverlap=768, cmap=SILENT)[3]
         levels.set_clim(levels.get_clim()[1] - 90, levels.get_clim()[1])
         for time in marks.get(path.stem, []):
             plt.plot(time, 15800, "v", color=COLOURS[1])
