@@ -99,7 +99,6 @@ fn world() -> (World, RecordedBlow) {
         world.poses.push(Pose {
             translation: fragment.mass.centre.as_vec3(),
             rotation: Quat::IDENTITY,
-            ..Pose::default()
         });
     }
     (world, blow)
@@ -269,7 +268,6 @@ fn cube(side: f64, speed: f64) -> f64 {
         poses: vec![Pose {
             translation: Vec3::new(0.0, half, 0.0),
             rotation: Quat::IDENTITY,
-            ..Pose::default()
         }],
     };
     let mut hearing = hearing(false);
