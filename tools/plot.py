@@ -3,8 +3,8 @@
 
     python3 tools/plot.py [NAME ...]
 
-NAME is a data file of docs/data without its ending; all of those that are there without one. Needs matplotlib; `sound` also needs the
-sounds that `frangible-lab sound` leaves in target/lab/sound.
+NAME is a data file of docs/data without its ending; all of those that are there without one. Needs matplotlib; `sound` and `levels` also need the
+sounds that the laboratory leaves in target/lab/sound.
 """
 
 import json
@@ -23,6 +23,8 @@ DOCS = ROOT / "docs"
 SOUNDS = ROOT / "target" / "lab" / "sound"
 # Okabe and Ito's colours, which the colour-blind tell apart too.
 COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"]
+# Of spectrograms: silence has no level, and is as black as what is soft.
+SILENT = plt.get_cmap("magma").with_extremes(bad="black")
 MARKERS = ["s", "o", "^", "D", "v", "P"]
 plt.rcParams.update({"figure.figsize": (8, 6), "axes.grid": True, "grid.alpha": 0.3, "axes.prop_cycle": plt.cycler(color=COLOURS)})
 
@@ -116,7 +118,7 @@ def recursive(data):
     save("recursive/time.png")
 
 
-def sound(data):
+def levels(data):
     for scene in sorted({row["scene"] for row in data["levels"]}):
         plt.figure(figsize=(7.6, 4.2))
         for i, row in enumerate(r for r in data["levels"] if r["scene"] == scene):
@@ -127,13 +129,22 @@ def sound(data):
             plt.plot([time[k] for k in landings], [row["levels_db"][k] for k in landings], MARKERS[i], color=COLOURS[i], markersize=4)
         label(scene, "time, s", "level of 20 ms, dB over full scale")
         save(f"sound/level-{scene}.png")
-    marks = {scene["name"]: scene["blows_s"] for scene in data["scenes"]}
+    spectrograms({}, lambda name: name.startswith("window-"))
+
+
+def sound(data):
+    spectrograms({scene["name"]: scene["blows_s"] for scene in data["scenes"]}, lambda name: not name.startswith("window-"))
+
+
+def spectrograms(marks, drawn):
     for path in sorted(SOUNDS.glob("*.wav")):
+        if not drawn(path.stem):
+            continue
         with wave.open(str(path)) as file:
             rate, raw = file.getframerate(), file.readframes(file.getnframes())
         samples = memoryview(raw).cast("h")
         plt.figure(figsize=(7.6, 4.2))
-        levels = plt.specgram(samples, NFFT=1024, Fs=rate, noverlap=768, cmap="magma")[3]
+        levels = plt.specgram(samples, NFFT=1024, Fs=rate, noverlap=768, cmap=SILENT)[3]
         levels.set_clim(levels.get_clim()[1] - 90, levels.get_clim()[1])
         for time in marks.get(path.stem, []):
             plt.plot(time, 15800, "v", color=COLOURS[1])
@@ -166,7 +177,7 @@ def soak(data):
 
 
 def main():
-    drawn = {"near-field": near_field, "verification": verification, "experiments": experiments, "recursive": recursive, "sound": sound, "figures": figures, "soak": soak}
+    drawn = {"near-field": near_field, "verification": verification, "experiments": experiments, "recursive": recursive, "sound": sound, "levels": levels, "figures": figures, "soak": soak}
     for name in sys.argv[1:] or drawn:
         if name not in drawn:
             sys.exit(f"there is nothing to draw of `{name}`; names: {', '.join(drawn)}")

@@ -67,7 +67,11 @@ impl Troupe {
     /// The pieces of a body of a material.
     pub(super) fn born(&mut self, pieces: &[Entity], fracture: &Arc<Fracture>, of: &Material) {
         for (i, (&entity, fragment)) in pieces.iter().zip(&fracture.fragments).enumerate() {
-            let sounding = Sounding::Piece(of.clone(), fragment.mass.mass);
+            let mass = fragment.mass.mass;
+            let sounding = match fracture.clump(i) {
+                Some(clump) => Sounding::Dice(of.clone(), mass, Arc::clone(clump)),
+                None => Sounding::Piece(of.clone(), mass),
+            };
             self.add(entity, sounding).piece = Some((Arc::clone(fracture), i));
         }
     }

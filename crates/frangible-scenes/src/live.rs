@@ -247,12 +247,7 @@ impl LiveScene {
                 mesh,
                 mass: fragment.mass.mass,
                 volume: fragment.mass.volume,
-                sounding: piece_sounding(
-                    &self.world,
-                    handle,
-                    event.asset.material(),
-                    fragment.mass.mass,
-                ),
+                sounding: piece_sounding(&self.world, event, i),
                 handle,
                 surfaces: Some(surfaces.clone()),
                 plain: None,

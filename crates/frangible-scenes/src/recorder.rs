@@ -2,10 +2,11 @@
 
 use std::collections::BTreeMap;
 use std::ops::Range;
+use std::sync::Arc;
 
 use frangible::glam::{Quat, Vec3};
 use frangible::internals::BodyState;
-use frangible::{Asset, ImpactReport, Material};
+use frangible::{Asset, ImpactReport};
 use frangible_rapier::BreakEvent;
 use frangible_rapier::BreakableWorld;
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
@@ -174,8 +175,7 @@ impl Recorder {
                 ("mass_kg".into(), fragment.mass.mass),
                 ("volume_m3".into(), fragment.mass.volume),
             ];
-            let mass = fragment.mass.mass;
-            let sounding = piece_sounding(world, body, event.asset.material(), mass);
+            let sounding = piece_sounding(world, event, i);
             self.track(name, mesh, body, extras, Role::Piece, sounding);
         }
         let pieces = first..self.recording.nodes.len();
@@ -296,15 +296,15 @@ impl Recorder {
     }
 }
 
-/// A piece of a body as a sound source: by its own modes where it can break again.
-pub(crate) fn piece_sounding(
-    world: &BreakableWorld,
-    body: RigidBodyHandle,
-    material: &Material,
-    mass: f64,
-) -> Sounding {
-    world.breakable(body).map_or_else(
-        || Sounding::Piece(material.clone(), mass),
+/// A piece of a break as a sound source: by its own modes where it can break again, by its dice where it is a clump of them.
+pub(crate) fn piece_sounding(world: &BreakableWorld, event: &BreakEvent, piece: usize) -> Sounding {
+    let (fracture, material) = (&event.fracture, event.asset.material().clone());
+    let mass = fracture.fragments[piece].mass.mass;
+    if let Some(clump) = fracture.clump(piece) {
+        return Sounding::Dice(material, mass, Arc::clone(clump));
+    }
+    world.breakable(event.fragments[piece]).map_or_else(
+        || Sounding::Piece(material, mass),
         |body| Sounding::Modes(body.clone()),
     )
 }

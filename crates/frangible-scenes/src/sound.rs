@@ -35,6 +35,8 @@ pub struct Sounded {
     pub config: SynthConfig,
     /// Report of the synthesiser.
     pub report: SynthReport,
+    /// Dice of tempered glass that were heard: when they came loose, and when they met something.
+    pub dice: [u64; 2],
     /// Wall-clock times of preparing the bodies and of computing the samples, s.
     pub seconds: [f64; 2],
 }
@@ -186,6 +188,7 @@ pub fn sound_of(
         samples,
         config: *config,
         report: hearing.synth().report(),
+        dice: hearing.dice(),
         seconds: [ready, clock.elapsed().as_secs_f64() - ready],
     })
 }

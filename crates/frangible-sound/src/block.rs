@@ -43,7 +43,7 @@ impl Synth {
         }
         self.report.most_bodies = self.report.most_bodies.max(bodies);
         for thump in &self.thumps {
-            let heard = [thump.heard(rate, now), [0.0; BLOCK]];
+            let heard = [thump.heard(rate, now); 2];
             mix(&mut self.coming, self.now, &thump.ways, &heard);
         }
         let end = now + BLOCK as f64;
@@ -117,6 +117,10 @@ impl Synth {
             Event::Thump(place, pulse) => {
                 let thump = Thump::new(&self.config, start, place, pulse);
                 self.thumps.extend(thump);
+            }
+            Event::Piston(place, pulse) => {
+                let piston = Thump::piston(&self.config, start, place, pulse);
+                self.thumps.push(piston);
             }
             Event::Listen(_) => {
                 for voice in self.voices.iter_mut().flatten() {

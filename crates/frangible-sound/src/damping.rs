@@ -42,6 +42,8 @@ const fn hysteretic(loss_factor: f64) -> AudibleDamping {
 
 const WANG_JAMES: &str = "Wang and James, KleinPAT, ACM TOG 38(4), 2019, Table 4";
 const CREMER: &str = "order of magnitude of Cremer and Heckl, Structure-Borne Sound, Springer 1988, table of loss factors";
+const BIRCH_BANCROFT: &str =
+    "Q = 150 of granite from 140 to 4500 Hz: Birch and Bancroft, Bull. Seismol. Soc. Am. 28, 1938";
 const ESTIMATE: &str = "an estimate: no measurement was found";
 
 const KNOWN: [Known; 12] = [
@@ -93,8 +95,8 @@ const KNOWN: [Known; 12] = [
     },
     Known {
         names: &["marble", "stone"],
-        damping: hysteretic(3e-3),
-        source: ESTIMATE,
+        damping: hysteretic(1.0 / 150.0),
+        source: BIRCH_BANCROFT,
     },
     Known {
         names: &["ice"],

@@ -10,6 +10,7 @@
 //! - **The rigid motion** of a struck body is included; small pieces, whose modes are above the range of hearing, sound by it alone.
 //! - **Damping** is [separate](AudibleDamping) from that of the fracture model, with losses by radiation and supports.
 //! - **Pieces** without modes ring as a [free plate](Plate) of their size.
+//! - **Dice** of tempered glass do not ring: each is heard when it comes loose and when it lands.
 //! - **The floor** reflects sound and sounds itself when struck; the [listener](Listener) has two ears with travel times.
 //! - **A limit** on the number of resonators keeps the loudest and drops masked ones, without clicks.
 //! - **A scene**, or the world of a game, is converted to sound by a [`Hearing`], which only needs the events.

@@ -22,6 +22,7 @@ pub(crate) enum Event {
     Strike(usize, Strike),
     Hush(usize),
     Thump(DVec3, Arc<SoundPulse>),
+    Piston(DVec3, Arc<SoundPulse>),
     Listen(Listener),
 }
 
@@ -126,7 +127,7 @@ impl Synth {
         self.voices[body] = None;
         let at = |event: &Event| match event {
             Event::Put(i, ..) | Event::Strike(i, _) | Event::Hush(i) => *i == body,
-            Event::Thump(..) | Event::Listen(_) => false,
+            Event::Thump(..) | Event::Piston(..) | Event::Listen(_) => false,
         };
         self.events.retain(|(_, event)| !at(event));
         Ok(())
@@ -183,6 +184,22 @@ impl Synth {
         pulse.validate()?;
         placed(place, DQuat::IDENTITY)?;
         self.event(time, Event::Thump(place, pulse))
+    }
+
+    /// Pushes air away in front of a wall at a time, s, and a position, m: `pulse` is the acceleration of the volume, m³/s², of a part of the wall that
+    /// moves by itself, is small against the waves, and is surrounded by the rest: p = ρ V̈(t − r/c) / (2π r), Rayleigh's integral.
+    ///
+    /// # Errors
+    /// A number that is not finite or out of range.
+    pub fn piston(
+        &mut self,
+        time: f64,
+        place: DVec3,
+        pulse: Arc<SoundPulse>,
+    ) -> Result<(), SoundError> {
+        pulse.validate()?;
+        placed(place, DQuat::IDENTITY)?;
+        self.event(time, Event::Piston(place, pulse))
     }
 
     /// Moves the listener at a time, s. The change takes effect within 128 samples.

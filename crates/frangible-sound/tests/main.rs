@@ -3,6 +3,7 @@
 mod bad_input;
 mod baked;
 mod common;
+mod landing;
 mod level;
 mod live;
 mod radiation;

@@ -15,8 +15,8 @@ use super::RATE;
 use crate::Result;
 
 /// Thickness of the shards, m, and ratio of their sides.
-const THICK: f64 = 0.003;
-const RATIO: f64 = 1.5;
+pub(super) const THICK: f64 = 0.003;
+pub(super) const RATIO: f64 = 1.5;
 
 /// Masses, kg, and speeds, m/s.
 const MASSES: [f64; 4] = [3e-4, 1e-3, 5e-3, 2e-2];
@@ -37,6 +37,9 @@ pub struct Landing {
     /// For each of `SPEEDS`: the loudest pressure, and the highest level of a meter set to *fast*, dB.
     #[serde(rename = "levels_db")]
     pub levels: Vec<[f64; 2]>,
+    /// Growth of both with ten times the speed, dB.
+    #[serde(rename = "per_decade_db")]
+    pub growth: [f64; 2],
     /// Lowest tone, Hz; its time of decay by 60 dB, s; and that of the material alone.
     #[serde(rename = "lowest_hz_s_s")]
     pub lowest: [f64; 3],
@@ -138,6 +141,9 @@ impl Landing {
             };
             heard(&one, &touch)
         });
+        let levels: Vec<[f64; 2]> = levels.into_iter().collect::<Result<_>>()?;
+        let decades = (SPEEDS[2] / SPEEDS[0]).log10();
+        let growth = [0, 1].map(|k| (levels[2][k] - levels[0][k]) / decades);
         let tone = body.modes.first().map_or([f64::NAN; 3], |mode| {
             let material = plate.damping.loss(TAU * mode.frequency);
             let alone = 6.0 * std::f64::consts::LN_10 / material;
@@ -146,7 +152,8 @@ impl Landing {
         Ok(Self {
             mass,
             side: sides[0],
-            levels: levels.into_iter().collect::<Result<_>>()?,
+            levels,
+            growth,
             lowest: tone,
         })
     }

@@ -1,12 +1,12 @@
 //! Scenes at their level: true to scale, and by loudness.
 
-use frangible_scenes::{bake, play, scene, sound, sound_config};
-use frangible_sound::{Loudness, SPEED_OF_SOUND, TARGET};
+use frangible_scenes::{SCENE_NAMES, bake, play, scene, sound, sound_config};
+use frangible_sound::{Leveller, Loudness, SPEED_OF_SOUND, TARGET};
 use serde_json::{Value, json};
 
 use crate::Result;
 
-/// The scenes.
+/// The scenes whose levels over time are kept.
 const NAMES: [&str; 5] = ["glass", "plate", "pane", "brick", "bottle"];
 
 /// Time over which a level is taken, s.
@@ -27,6 +27,8 @@ pub struct HeardLevel {
     pub levels: [Vec<f64>; 2],
     /// Loudness.
     pub loudness: [Loudness; 2],
+    /// Loudness as played live, at a full scale that does not follow the scene.
+    pub live: Loudness,
     /// Full scale, the pressure of a sample of 1, as a sound pressure level, dB over 20 µPa.
     pub full_scale: [f64; 2],
     /// Largest reduction of a loud sample and largest gain of a soft one, dB.
@@ -37,12 +39,37 @@ pub struct HeardLevel {
     pub crash: [f64; 2],
 }
 
-/// All of them.
-pub(super) fn all() -> Result<Vec<HeardLevel>> {
-    NAMES.into_iter().map(HeardLevel::compute).collect()
+/// All of the gallery. `hear` receives the share done, 0..=1.
+pub(super) fn all(hear: &dyn Fn(f64)) -> Result<Vec<HeardLevel>> {
+    let count = SCENE_NAMES.len() as f64;
+    let one = |(k, name)| {
+        hear(k as f64 / count);
+        HeardLevel::compute(name)
+    };
+    SCENE_NAMES.into_iter().enumerate().map(one).collect()
 }
 
 impl HeardLevel {
+    /// True if its levels over time are kept.
+    pub(super) fn is_kept(&self) -> bool {
+        NAMES.contains(&&*self.name)
+    }
+
+    /// Row of the table of all scenes.
+    pub(super) fn row(&self) -> Value {
+        let below = [0, 1].map(|k| self.below(k)[1]);
+        json!({
+            "scene": self.name,
+            "full_scale_db": self.full_scale[1],
+            "integrated_lufs": self.loudness[1].integrated,
+            "true_peak_db": self.loudness[1].true_peak,
+            "reduced_raised_db": self.changed,
+            "crash_over_landings_db": below,
+            "live_lufs": self.live.integrated,
+            "live_true_peak_db": self.live.true_peak,
+        })
+    }
+
     /// Rows of the table, true to scale and by loudness, and the levels over time.
     pub(super) fn data(&self) -> [Value; 2] {
         let names = ["true", "loudness"];
@@ -53,7 +80,7 @@ impl HeardLevel {
                 "full_scale_db": self.full_scale[k],
                 "integrated_lufs": self.loudness[k].integrated,
                 "true_peak_db": self.loudness[k].true_peak,
-                "reduced_raised_db": (k == 1).then_some(self.changed),
+                "reduced_raised_db": self.changed.map(|changed| (k == 1).then_some(changed)),
                 "crash_db": self.crash[k],
                 "landings_below_db": self.below(k),
                 "levels_db": self.levels[k].iter().map(|l| l.round()).collect::<Vec<_>>(),
@@ -74,6 +101,8 @@ impl HeardLevel {
             .map(|p| p / loudest as f32)
             .collect();
         let levelled = sounded.levelled(TARGET)?;
+        let mut live = Vec::with_capacity(plain.len());
+        Leveller::new(rate, channels, Leveller::LIVE)?.level(&sounded.samples, &mut live)?;
         let levels = [&plain, &levelled.samples].map(|samples| envelope(samples, channels, rate));
         let broke = run.recording.blows.iter().find(|b| !b.pieces.is_empty());
         let broke = broke.map_or(0.0, |blow| blow.time);
@@ -98,6 +127,7 @@ impl HeardLevel {
             name: name.into(),
             levels,
             loudness: [Loudness::of(&plain, channels, rate)?, levelled.loudness],
+            live: Loudness::of(&live, channels, rate)?,
             full_scale: [loudest, levelled.full_scale.unwrap_or(loudest)]
                 .map(|pressure| 20.0 * (pressure / 2e-5).log10()),
             changed: [levelled.leveller.reduction, levelled.leveller.raised],

@@ -1,10 +1,12 @@
-//! Struck and broken things, heard: `frangible-lab sound`.
+//! Struck and broken things, heard: `frangible-lab sound` and `frangible-lab levels`.
 //!
 //! Closed forms and published spectra stand beside the synthesiser's results for baked bodies. The tests of `frangible-sound` check the radiation of
 //! spheres, energies and onsets; here are whole bodies.
 
 mod cup;
+mod decays;
 mod faces;
+mod glazing;
 mod landing;
 mod levels;
 mod objects;
@@ -15,6 +17,8 @@ use serde_json::{Value, json};
 
 use crate::{Progress, Result};
 pub use cup::{Cup, FRICTIONS, Knocked};
+pub use decays::{MaterialLoss, OctaveDecay};
+pub use glazing::HeardGlass;
 pub use landing::Landing;
 pub use levels::HeardLevel;
 pub use objects::{Object, Partial};
@@ -32,10 +36,6 @@ pub struct Heard {
     pub cup: Cup,
     /// Scenes.
     pub scenes: Vec<HeardScene>,
-    /// Scenes at two levels.
-    pub levels: Vec<HeardLevel>,
-    /// Shards that land.
-    pub landings: Vec<Landing>,
     /// The glass dropped from heights that double.
     pub drops: Vec<Drop>,
 }
@@ -55,16 +55,12 @@ impl Heard {
             scenes.push(HeardScene::compute(name)?);
             hear(0.35 + 0.5 * (i + 1) as f64 / scenes::NAMES.len() as f64);
         }
-        let (levels, landings) = (levels::all()?, landing::all()?);
-        hear(0.9);
         let drops = scenes::drops()?;
         hear(0.98);
         Ok(Self {
             objects,
             cup,
             scenes,
-            levels,
-            landings,
             drops,
         })
     }
@@ -112,8 +108,6 @@ impl Heard {
             "cup": { "two_tones_hz": cup.two_tones, "speed_m_s": cup.speed, "places": cup.places },
             "cups": cups.collect::<Vec<_>>(),
             "scenes": scenes.collect::<Vec<_>>(),
-            "levels": self.levels.iter().flat_map(HeardLevel::data).collect::<Vec<_>>(),
-            "landings": self.landings,
             "drops": drops.collect::<Vec<_>>(),
         })
     }
@@ -134,5 +128,65 @@ impl Heard {
             (&*scene.name, &scene.samples[..end.min(scene.samples.len())])
         });
         cups.chain(scenes).collect()
+    }
+}
+
+/// Levels of scenes and of shards that land, and how long these ring.
+#[derive(Clone, Debug)]
+pub struct Levels {
+    /// The scenes of the gallery, true to scale and by loudness.
+    pub scenes: Vec<HeardLevel>,
+    /// Shards that land.
+    pub landings: Vec<Landing>,
+    /// Losses of materials.
+    pub materials: Vec<MaterialLoss>,
+    /// Decay of shards of glass.
+    pub shards: Vec<OctaveDecay>,
+    /// A window of two glasses.
+    pub glasses: Vec<HeardGlass>,
+}
+
+impl Levels {
+    /// Computes everything: minutes. `hear` receives the share done, 0..=1.
+    ///
+    /// # Errors
+    /// An error of the bake, of the scenes or of the synthesiser.
+    pub fn compute(hear: Progress<'_>) -> Result<Self> {
+        let (materials, shards) = (decays::materials(), decays::shards()?);
+        let landings = landing::all()?;
+        let glasses = glazing::all()?;
+        hear(0.1);
+        let scenes = levels::all(&|share| hear(0.1 + 0.9 * share))?;
+        Ok(Self {
+            scenes,
+            landings,
+            materials,
+            shards,
+            glasses,
+        })
+    }
+
+    /// The numbers; the same build gives the same ones.
+    #[must_use]
+    pub fn data(&self) -> Value {
+        let kept = self.scenes.iter().filter(|scene| scene.is_kept());
+        let rows = self.scenes.iter().map(HeardLevel::row);
+        json!({
+            "levels": kept.flat_map(HeardLevel::data).collect::<Vec<_>>(),
+            "gallery": rows.collect::<Vec<_>>(),
+            "landings": self.landings,
+            "materials": self.materials,
+            "shards": self.shards,
+            "glasses": self.glasses,
+        })
+    }
+
+    /// The sounds that are drawn as spectrograms: name and samples, Pa.
+    #[must_use]
+    pub fn sounds(&self) -> Vec<(&str, &[f32])> {
+        let glasses = self.glasses.iter();
+        glasses
+            .map(|glass| (glass.picture, &*glass.samples))
+            .collect()
     }
 }

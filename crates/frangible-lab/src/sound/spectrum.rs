@@ -47,6 +47,29 @@ impl Spectrum {
         };
         Some(((at as f64 + shift) * self.step, b.exp()))
     }
+
+    /// Mean of the frequencies, Hz, weighted by their power.
+    pub(super) fn centroid(&self) -> f64 {
+        let (mut sum, mut all) = (0.0, 0.0);
+        for (k, &amplitude) in self.amplitudes.iter().enumerate() {
+            let power = f64::from(amplitude).powi(2);
+            sum += power * k as f64 * self.step;
+            all += power;
+        }
+        sum / all.max(1e-30)
+    }
+
+    /// Level of the strongest tone over the middle one of those from 1 to 16 kHz, dB.
+    pub(super) fn tonal(&self) -> f64 {
+        let at = |frequency: f64| ((frequency / self.step) as usize).min(self.amplitudes.len());
+        let mut heard = self.amplitudes[at(1e3)..at(1.6e4)].to_vec();
+        heard.sort_by(f32::total_cmp);
+        let (middle, most) = (heard.get(heard.len() / 2), heard.last());
+        let ratio = middle
+            .zip(most)
+            .map_or(1.0, |(middle, most)| most / middle.max(1e-30));
+        20.0 * f64::from(ratio).log10()
+    }
 }
 
 /// Transforms complex numbers (real, imaginary) in place: Σ x_k e^{−2πi jk/n}. Their number is a power of two.

@@ -5,13 +5,13 @@ use std::collections::VecDeque;
 use super::least::Least;
 use crate::error::{SoundError, checked_full_scale, within};
 
-/// Largest sample: −3 dB. What is bent has peaks between its samples: a broken plate's are 2.4 dB higher, those of white noise 4 dB.
-const CEILING: f64 = 0.707_945_784_384_137_9;
+/// Largest sample: −4 dB. What is bent has peaks between its samples: those of a broken cup are 3.8 dB higher, those of white noise 4 dB.
+const CEILING: f64 = 0.630_957_344_480_193_2;
 
 /// Samples above this are bent: −9 dB.
 const BENT: f64 = 0.354_813_389_233_575_5;
 
-/// Size to which the gain limits peaks: 9 dB, which is 12 dB above the ceiling; bending takes the rest.
+/// Size to which the gain limits peaks: 9 dB, which is 13 dB above the ceiling; bending takes the rest.
 const DRIVEN: f64 = 2.818_382_931_264_453_6;
 
 /// Level above which sounds are not raised: −6 dB.
@@ -46,9 +46,10 @@ pub struct LevellerReport {
 /// crash plays the rest below the noise of a room. Therefore
 ///
 /// - sounds whose peaks are below −6 dB of full scale are raised by half of what they lack (a ratio of 2 : 1), at most by 18 dB. The
-///   level on which that hangs rises at once and falls by 20 dB/s, so that the decay of a tone becomes slower by at most half as much;
-/// - samples above −9 dB are bent more and more, and stay below −3 dB, so that what lies between them hardly exceeds full scale. Peaks more than
-///   12 dB above that are first limited by the gain, which begins to fall one millisecond before and returns with a time constant of 30 ms.
+///   level on which that hangs rises at once, to full scale and no further, and falls by 20 dB/s, so that the decay of a tone becomes slower by at
+///   most half as much, and what follows a click is raised as soon as what follows a crash;
+/// - samples above −9 dB are bent more and more, and stay below −4 dB, so that what lies between them does not exceed full scale. Peaks more than
+///   13 dB above that are first limited by the gain, which begins to fall one millisecond before and returns with a time constant of 30 ms.
 ///
 /// A crash is bent for some milliseconds, in which it is noise, and keeps its place above what follows; a gain alone would duck its shards.
 ///
@@ -164,7 +165,7 @@ impl Leveller {
         }
         self.peak = self.peak.max(peak);
         peak /= self.full_scale;
-        self.level = peak.max(self.stays * self.level);
+        self.level = peak.min(1.0).max(self.stays * self.level);
         let raised = (LOUD / self.level.max(1e-30)).sqrt().clamp(1.0, MOST);
         let wanted = raised.min(DRIVEN / peak.max(1e-30));
         self.gain = wanted.min(self.gain + self.release * (wanted - self.gain));

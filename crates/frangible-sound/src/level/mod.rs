@@ -18,12 +18,13 @@ pub const TARGET: f64 = -16.0;
 const TRUE_PEAK: f64 = -1.0;
 
 /// Most that full scale may lie below the peak, dB. A click of which more would have to be taken to reach a loudness stays softer.
-const MOST_LIMITED: f64 = 24.0;
+const MOST_LIMITED: f64 = 48.0;
 
-/// Trials in which full scale is found, the error with which it is good enough, LU, and the range of the growth of loudness with the
+/// Trials in which full scale is found, the errors with which it is good enough and with which it is not, LU, and the range of the growth of loudness with the
 /// gain, LU/dB: the leveller takes some of it.
 const TRIALS: usize = 16;
 const CLOSE: f64 = 0.02;
+const FAR: f64 = 0.2;
 const GROWTH: [f64; 2] = [0.3, 1.0];
 
 /// The level at which a sound is played.
@@ -52,7 +53,7 @@ pub struct Levelled {
 /// Levels pressures, Pa, with interleaved channels, to an integrated loudness, LUFS, with a [`Leveller`].
 ///
 /// Full scale is found by trial, so that the samples have that loudness within 0.5 LU and a true peak of at most −1 dB. Where the peak would be more
-/// than 24 dB above full scale, the sound stays softer: a click alone does not become loud. Silence stays silence. Pressures that are all
+/// than 48 dB above full scale, the sound stays softer: a click alone does not become loud. Silence stays silence. Pressures that are all
 /// larger by a factor give the same samples but for rounding.
 ///
 /// # Errors
@@ -128,6 +129,7 @@ struct Plain<'a> {
 }
 
 /// A levelled sound, and how far its peak was over full scale, dB.
+#[derive(Clone)]
 struct Tried {
     samples: Vec<f32>,
     over: f64,
@@ -141,10 +143,14 @@ impl Plain<'_> {
         // The loudness grows with the gain, but for steps where its gate lets a part of the sound in or out.
         let (mut least, mut most) = (f64::NEG_INFINITY, MOST_LIMITED);
         let mut best: Option<(f64, Tried)> = None;
+        let mut louder: Option<(f64, Tried)> = None;
         for trial in 0..TRIALS {
             let tried = self.levelled(over, factor)?;
             let loudness = integrated(&tried.samples, self.channels, self.rate)?;
             let off = loudness.map_or(f64::INFINITY, |loudness| target - loudness);
+            if off < 0.0 && louder.as_ref().is_none_or(|(known, _)| off > *known) {
+                louder = Some((off, tried.clone()));
+            }
             if best
                 .as_ref()
                 .is_none_or(|(known, _)| off.abs() < known.abs())
@@ -168,6 +174,14 @@ impl Plain<'_> {
                     over.min(most)
                 };
             }
+        }
+        // At such a step no gain gives the loudness; that above it is turned down as a whole, which leaves the gate where it is.
+        if let Some((off, mut tried)) = louder
+            && best.as_ref().is_none_or(|(known, _)| known.abs() > FAR)
+        {
+            let less = decibels(off) as f32;
+            tried.samples.iter_mut().for_each(|sample| *sample *= less);
+            return Ok(tried);
         }
         best.map_or_else(|| self.levelled(over, factor), |(_, tried)| Ok(tried))
     }

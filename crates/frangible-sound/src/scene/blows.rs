@@ -9,7 +9,7 @@ use glam::Vec3;
 
 use super::cast::{Cast, Sounding};
 use super::nodes::{Nodes, carried};
-use super::{place, released};
+use super::{dice, place, released};
 use crate::error::SoundError;
 use crate::pulse::SoundPulse;
 use crate::strike::{CRACK_SHARE, CRACK_SPEED, Strike};
@@ -61,13 +61,13 @@ pub fn recorded_blow(
     }
 }
 
-/// Lets a blow be heard.
+/// Lets a blow be heard, and returns the number of dice that came loose.
 pub(super) fn blows(
     synth: &mut Synth,
     nodes: &mut Nodes,
     cast: &dyn Cast,
     blow: &RecordedBlow,
-) -> Result<(), SoundError> {
+) -> Result<u64, SoundError> {
     let (id, body) = nodes.ready(synth, cast, blow.node, blow.time)?;
     let pose = cast.pose(blow.node, blow.time);
     let mut pulses = Vec::new();
@@ -87,14 +87,18 @@ pub(super) fn blows(
         let direction = pose.rotation * recorded.direction;
         answer(synth, nodes, cast, blow.time, [at, direction], pulse)?;
     }
-    if !blow.pieces.is_empty() {
-        let times = blow.cracks.iter().flat_map(|crack| &crack.times);
-        let apart = times.copied().fold(0.0, f64::max);
-        synth.hush(blow.time + apart, id)?;
-        let moving = released::velocities(&body, &pulses, apart);
-        released::released(synth, nodes, cast, blow, &moving, apart)?;
+    if blow.pieces.is_empty() || dice::are(cast, [blow.node]) {
+        return Ok(0);
     }
-    Ok(())
+    let times = blow.cracks.iter().flat_map(|crack| &crack.times);
+    let apart = times.copied().fold(0.0, f64::max);
+    synth.hush(blow.time + apart, id)?;
+    if dice::are(cast, blow.pieces.clone()) {
+        return dice::loose(synth, cast, blow);
+    }
+    let moving = released::velocities(&body, &pulses, apart);
+    released::released(synth, nodes, cast, blow, &moving, apart)?;
+    Ok(0)
 }
 
 /// Applies the force to its other side as well: the floor, or a projectile.

@@ -1,5 +1,8 @@
 //! The sound-emitting objects of a scene, by numbers chosen by the caller.
 
+use std::sync::Arc;
+
+use frangible::internals::outcome::Clump;
 use frangible::{Body, Material};
 use frangible_recording::Pose;
 use glam::Vec3;
@@ -17,6 +20,8 @@ pub enum Sounding {
     Piece(Material, f64),
     /// A projectile, as a ball: its material, radius, m, and mass, kg.
     Ball(Material, f64, f64),
+    /// A clump of dice of tempered glass: its material, its mass, kg, and the dice. It does not ring, as nothing holds it together.
+    Dice(Material, f64, Arc<Clump>),
 }
 
 impl Sounding {
@@ -25,7 +30,9 @@ impl Sounding {
     pub fn material(&self) -> &Material {
         match self {
             Self::Modes(body) => body.asset().material(),
-            Self::Piece(material, _) | Self::Ball(material, ..) => material,
+            Self::Piece(material, _) | Self::Ball(material, ..) | Self::Dice(material, ..) => {
+                material
+            }
         }
     }
 
@@ -34,7 +41,16 @@ impl Sounding {
     pub fn mass(&self) -> f64 {
         match self {
             Self::Modes(body) => body.asset().mass().mass,
-            Self::Piece(_, mass) | Self::Ball(_, _, mass) => *mass,
+            Self::Piece(_, mass) | Self::Ball(_, _, mass) | Self::Dice(_, mass, _) => *mass,
+        }
+    }
+
+    /// Returns the mass of what meets others one by one, kg: of a clump the mean of its dice, of all else the whole.
+    #[must_use]
+    pub fn grain_mass(&self) -> f64 {
+        match self {
+            Self::Dice(_, mass, clump) => mass / clump.count().max(1) as f64,
+            _ => self.mass(),
         }
     }
 }

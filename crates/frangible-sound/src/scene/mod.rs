@@ -6,6 +6,7 @@
 
 mod blows;
 mod cast;
+mod dice;
 mod nodes;
 mod released;
 mod slides;
@@ -38,6 +39,8 @@ pub struct Hearing {
     floor: Option<Material>,
     /// Struck objects, and the times of the blows, s.
     blows: Vec<(usize, f64)>,
+    /// Dice that came loose and dice that landed.
+    dice: [u64; 2],
 }
 
 impl Hearing {
@@ -51,6 +54,7 @@ impl Hearing {
             nodes: Nodes::default(),
             floor,
             blows: Vec::new(),
+            dice: [0; 2],
         })
     }
 
@@ -111,7 +115,8 @@ impl Hearing {
     /// # Errors
     /// A value of the blow or of an object is invalid.
     pub fn blow(&mut self, cast: &dyn Cast, blow: &RecordedBlow) -> Result<(), SoundError> {
-        blows::blows(&mut self.synth, &mut self.nodes, cast, blow)
+        self.dice[0] += blows::blows(&mut self.synth, &mut self.nodes, cast, blow)?;
+        Ok(())
     }
 
     /// Adds the sound of the cracks of a blow.
@@ -128,7 +133,14 @@ impl Hearing {
     /// A value of the touch or of an object is invalid.
     pub fn touch(&mut self, cast: &dyn Cast, touch: &RecordedTouch) -> Result<(), SoundError> {
         let known = (self.floor.as_ref(), &self.blows[..]);
-        touches::touches(&mut self.synth, &mut self.nodes, cast, known, touch)
+        self.dice[1] += touches::touches(&mut self.synth, &mut self.nodes, cast, known, touch)?;
+        Ok(())
+    }
+
+    /// Returns the numbers of dice of tempered glass that were heard so far: when they came loose, and when they met something.
+    #[must_use]
+    pub fn dice(&self) -> [u64; 2] {
+        self.dice
     }
 
     /// Adds the sound of a slide.

@@ -1,6 +1,7 @@
 //! The objects of a scene as bodies of a synthesiser.
 
 use std::collections::BTreeMap;
+use std::f64::consts::PI;
 use std::sync::Arc;
 
 use frangible::Asset;
@@ -101,6 +102,11 @@ impl Nodes {
                 Shape::Ball,
                 Arc::new(SoundBody::ball(name, *radius, *mass)?),
             )),
+            Sounding::Dice(material, ..) => {
+                let mass = cast.sounding(node).grain_mass();
+                let radius = (3.0 * mass / (4.0 * PI * material.density)).cbrt();
+                Ok((Shape::Ball, Arc::new(SoundBody::ball(name, radius, mass)?)))
+            }
             Sounding::Modes(body) => {
                 let known = self
                     .assets

@@ -9,7 +9,7 @@ use glam::Vec3;
 
 use super::cast::Cast;
 use super::nodes::Nodes;
-use super::place;
+use super::{dice, place};
 use crate::body::SoundBody;
 use crate::error::SoundError;
 use crate::pulse::SoundPulse;
@@ -27,34 +27,37 @@ const EDGE: f64 = 0.2;
 const LONGEST: f64 = 0.02;
 
 /// One side of a touch: a node that is ready to sound, and the push on it.
-struct Side {
-    id: usize,
+pub(super) struct Side {
+    pub(super) id: usize,
     body: Arc<SoundBody>,
-    push: Vec<f32>,
+    pub(super) push: Vec<f32>,
     /// Position at which the push acts, m, and its direction, in the node's frame.
     point: Vec3,
-    direction: Vec3,
+    pub(super) direction: Vec3,
 }
 
 /// Lets a touch be heard on both its sides.
 ///
 /// The engine's impulse is all that a touch gives in the end, also what one piece only passes on to the next. A body that rings gives way at
 /// once, so that the first push is that of the two coming together ([`first_push`]): it alone rings, and the rest comes more slowly, as long
-/// as the body swings.
+/// as the body swings. Returns the number of dice that met something.
 pub(super) fn touches(
     synth: &mut Synth,
     nodes: &mut Nodes,
     cast: &dyn Cast,
     (floor, blows): (Option<&Material>, &[(usize, f64)]),
     touch: &RecordedTouch,
-) -> Result<(), SoundError> {
+) -> Result<u64, SoundError> {
     let (first, second) = touch.nodes;
+    if dice::are(cast, [Some(first), second].into_iter().flatten()) {
+        return dice::lands(synth, nodes, cast, floor, touch);
+    }
     let struck = blows.iter().any(|&(node, time)| {
         let same = node == first || Some(node) == second;
         same && (touch.time - time).abs() < SAME
     });
     if struck || touch.impulse <= 0.0 {
-        return Ok(());
+        return Ok(0);
     }
     let own = [Some(first), second]
         .map(|node| node.map(|n| (cast.sounding(n).mass(), cast.sounding(n).material())));
@@ -95,11 +98,11 @@ pub(super) fn touches(
         synth.thump(touch.time, place(touch.point), sharp)?;
         synth.thump(touch.time, place(touch.point), rest)?;
     }
-    Ok(())
+    Ok(0)
 }
 
 /// A node that feels a touch, pushed along its normal or against it.
-fn side(
+pub(super) fn side(
     synth: &mut Synth,
     nodes: &mut Nodes,
     cast: &dyn Cast,
@@ -124,7 +127,7 @@ fn side(
 }
 
 /// Hertz's duration, s, of a collision of a mass, kg, at a speed, m/s, of two bodies, or of one with the floor: 2.87 (m²/(E*² R v))^{1/5}.
-fn hertz(
+pub(super) fn hertz(
     mass: f64,
     speed: f64,
     bodies: [Option<(f64, &Material)>; 2],

@@ -24,6 +24,8 @@ pub(crate) enum Command {
     NearField(Write),
     /// Compare synthesised sounds with closed-form solutions and published spectra (minutes)
     Sound(Write),
+    /// Level the sound of all scenes by loudness, and compare landings, decays and glasses (minutes)
+    Levels(Write),
     /// Compute the numbers behind the figures of the paper on which the model is based (minutes)
     Figures(FiguresArgs),
     /// Measure the time of breaks, of rejected contacts and of scenes

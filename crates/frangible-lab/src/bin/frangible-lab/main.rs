@@ -13,7 +13,7 @@ use frangible_lab::bench::subjects::chosen;
 use frangible_lab::bench::{again, contacts, gallery as breaks, table1};
 use frangible_lab::compare::{Method, Options, SCENES, broken_scene, picture};
 use frangible_lab::data::Measures;
-use frangible_lab::sound::{Heard, RATE};
+use frangible_lab::sound::{Heard, Levels, RATE};
 use frangible_lab::verify::CASES;
 use frangible_lab::verify::experiments::{Experiments, MassPlan, RearStarPlan, StarPlan};
 use frangible_lab::verify::near_field;
@@ -35,6 +35,7 @@ fn main() -> ExitCode {
         Command::Pieces(args) => pieces(&args),
         Command::NearField(args) => plates(&args),
         Command::Sound(args) => sound(&args),
+        Command::Levels(args) => levels(&args),
         Command::Figures(args) => figures(&args.names, &args.write),
         Command::Bench(args) => bench(&args),
         Command::Compare(args) => compare(&args),
@@ -110,13 +111,29 @@ fn sound(args: &Write) -> Result<()> {
     let bar = Bar::new();
     let heard = Heard::compute(&|share| bar.show("simulating blows and sound", share))?;
     drop(bar);
+    leave(&heard.sounds())?;
+    place.put(false, &heard.data())
+}
+
+/// Also leaves the sounds where `tools/plot.py` looks for them.
+fn levels(args: &Write) -> Result<()> {
+    let place = Place::new(args, "levels", Measures::Sound)?;
+    let bar = Bar::new();
+    let heard = Levels::compute(&|share| bar.show("simulating scenes and sound", share))?;
+    drop(bar);
+    leave(&heard.sounds())?;
+    place.put(false, &heard.data())
+}
+
+/// Writes sounds, each as loud as fits.
+fn leave(sounds: &[(&str, &[f32])]) -> Result<()> {
     make_folder(SOUNDS.as_ref(), &[], "--write")?;
-    for (name, samples) in heard.sounds() {
+    for (name, samples) in sounds {
         let loudest = samples.iter().fold(0.0_f32, |most, s| most.max(s.abs()));
         let wav = frangible_sound::wav(samples, 1, RATE, f64::from(loudest))?;
         write_atomically(format!("{SOUNDS}/{name}.wav").as_ref(), &wav)?;
     }
-    place.put(false, &heard.data())
+    Ok(())
 }
 
 fn figures(names: &[String], args: &Write) -> Result<()> {
