@@ -17,7 +17,7 @@ fn uv_at(p: DVec3) -> Vec2 {
 }
 
 /// A ball of `rings` × 2 `rings` quads, its lower half of another material.
-fn ball(rings: u32) -> InputMesh {
+pub(crate) fn ball(rings: u32) -> InputMesh {
     let mut mesh = InputMesh::default();
     let sectors = 2 * rings;
     for i in 0..=rings {

@@ -32,6 +32,7 @@ mod rows;
 mod smooth;
 mod surface;
 mod tet;
+mod threads;
 mod tree;
 mod wall;
 
@@ -55,5 +56,6 @@ pub use rows::Rows;
 pub use smooth::smooth_normals;
 pub use surface::TriMesh;
 pub use tet::{EDGES, FACES, NO_NEIGHBOUR, TetMesh};
+pub use threads::{Pool, Threads};
 pub use tree::{SurfacePoint, TriangleTree};
 pub use wall::{Grid, WallFaces};

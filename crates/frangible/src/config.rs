@@ -2,7 +2,7 @@
 
 use crate::error::InputError;
 use crate::material::OutOfRange;
-use crate::threads::Threads;
+use crate::mesh::Threads;
 
 /// Settings of the fracture model. `Default` is the extended model; [`FractureConfig::as_in_the_paper`] is the paper's.
 #[derive(Clone, Debug, PartialEq)]

@@ -343,7 +343,13 @@ pub(crate) fn pieces(body: &Body, cracked: Cracked<'_>) -> Outcome {
     report.timings.fragments = start.elapsed().as_secs_f64();
     let start = Instant::now();
     if let (Some(surface), Some(undrawn)) = (&body.asset.root().render, undrawn) {
-        fragment::draw(surface, root, &mut fragments, undrawn);
+        fragment::draw(
+            surface,
+            root,
+            &mut fragments,
+            undrawn,
+            &system.config.threads,
+        );
         report.timings.drawing = start.elapsed().as_secs_f64();
     }
     if let Some(apart) = apart {

@@ -44,7 +44,6 @@ mod rigid;
 mod rng;
 mod state;
 mod stress;
-mod threads;
 mod tips;
 mod trace;
 

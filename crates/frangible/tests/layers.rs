@@ -4,9 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// From the lowest to the highest. `mesh` and `material` are crates of their own, below all of them.
-const ORDER: [&str; 28] = [
+const ORDER: [&str; 27] = [
     "error",
-    "threads",
     "rng",
     "vectors",
     "state",

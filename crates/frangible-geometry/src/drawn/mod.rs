@@ -24,7 +24,7 @@ mod vertices;
 
 use glam::{DVec3, Vec3};
 
-use crate::{RenderMesh, TriangleTree};
+use crate::{RenderMesh, Threads, TriangleTree};
 use conform::{Corner, Corners, Room};
 use edges::{Edges, NO_TRIANGLE};
 pub use look::{
@@ -84,6 +84,9 @@ pub struct Piece<'a> {
 /// A triangle, a label, and the polygon that is this label's part of the triangle. Lists of them are in the order of the triangles.
 type Cut = (u32, u32, Polygon);
 
+/// Parts of the surface per thread: the longest of them ends soon after the others.
+const PARTS: usize = 8;
+
 /// Share of the render surface that belongs to a fragment.
 #[derive(Clone, Debug, Default)]
 struct Share {
@@ -141,6 +144,7 @@ impl RenderIndex {
         boundary: &TriangleTree,
         division: Division,
         pieces: &[Piece<'_>],
+        threads: &Threads,
     ) -> Vec<RenderMesh> {
         let Division {
             parts,
@@ -149,7 +153,7 @@ impl RenderIndex {
             mut points,
         } = division;
         // One more for what belongs to the neighbours of a piece.
-        let (mut shares, cuts) = self.shares(surface, boundary, &parts, faces.len() + 1);
+        let (mut shares, cuts) = self.shares(surface, boundary, &parts, faces.len() + 1, threads);
         let mut rim = parts.rim;
         rim.sort_unstable();
         rim.dedup();
@@ -171,11 +175,13 @@ impl RenderIndex {
                 Some((corners, owners(&shares, surface.triangles.len())))
             }
         };
-        let mut laid = points.clone();
-        let mut local = vec![u32::MAX; self.vertices.count()];
-        // Of the piece at hand, at the points of its crack faces.
-        let mut normals = vec![Vec3::ZERO; points.len()];
-        let mut draw = |piece: &Piece<'_>| {
+        // Places of points, vertices, and normals of the piece at hand at the points of its crack faces.
+        let room = || {
+            let local = vec![u32::MAX; self.vertices.count()];
+            (points.clone(), local, vec![Vec3::ZERO; points.len()])
+        };
+        type Local = (Vec<DVec3>, Vec<u32>, Vec<Vec3>);
+        let draw = |(laid, local, normals): &mut Local, piece: &Piece<'_>| {
             let (share, faces) = (&shares[piece.label as usize], &faces[piece.label as usize]);
             for (face, own) in faces.iter().zip(piece.normals) {
                 for (&v, &normal) in face.iter().zip(own) {
@@ -186,7 +192,7 @@ impl RenderIndex {
                 faces,
                 first: nodes,
                 places: &points,
-                normals: &normals,
+                normals,
                 is_on_rim: &is_on_rim,
             };
             let seam = sewn.as_ref().map(|(corners, owners)| {
@@ -204,13 +210,13 @@ impl RenderIndex {
             let seam = seam.unwrap_or_default();
             let corners = sewn.as_ref().map(|(corners, _)| corners);
             let inner = seam.count(cracks);
-            let mut drawn = self.assemble(surface, share, corners, inner, piece.centre, &mut local);
-            seam.faces(cracks, piece.normals, &mut laid, |face| {
+            let mut drawn = self.assemble(surface, share, corners, inner, piece.centre, local);
+            seam.faces(cracks, piece.normals, laid, |face| {
                 drawn.crack_face(face);
             });
             drawn.mesh
         };
-        pieces.iter().map(&mut draw).collect()
+        threads.map(pieces.iter().collect(), room, draw)
     }
 
     /// Moves a point to the closest point of the render surface, if that is within reach.
@@ -232,22 +238,21 @@ impl RenderIndex {
         boundary: &TriangleTree,
         parts: &Parts,
         fragments: usize,
+        threads: &Threads,
     ) -> (Vec<Share>, Vec<Cut>) {
         let (labels, cracks) = (parts.labels(), parts.cracks());
-        let (mut shares, mut cuts) = (vec![Share::default(); fragments], Vec::new());
-        for (t, triangle) in surface.triangles.iter().enumerate() {
+        // The label of a triangle under which there is one, and the parts of one that several share.
+        let look = |t: usize| {
+            let triangle = &surface.triangles[t];
             let under = self.under.of(t);
             let label = labels[under[0] as usize];
             if label != MIXED && under.iter().all(|&b| labels[b as usize] == label) {
-                shares[label as usize].whole.push(t as u32);
-                continue;
+                return (label, Vec::new());
             }
             let lie = self.under.lie(t);
             let corners = triangle.map(|v| surface.positions[v as usize].as_dvec3());
             let Some(ground) = Ground::new(corners, lie == Lie::Turned) else {
-                let label = parts.label_near(under[0], corners[0]);
-                shares[label as usize].whole.push(t as u32);
-                continue;
+                return (parts.label_near(under[0], corners[0]), Vec::new());
             };
             let overlay = Overlay {
                 ground,
@@ -260,19 +265,32 @@ impl RenderIndex {
             if lie != Lie::Beside
                 && let Some(label) = overlay.only_label(under)
             {
-                shares[label as usize].whole.push(t as u32);
-                continue;
+                return (label, Vec::new());
             }
             let divided = match lie {
                 Lie::Beside => overlay.beside(under),
                 Lie::Over | Lie::Turned => overlay.divide(under),
             };
-            if let [(_, label)] = divided[..] {
-                shares[label as usize].whole.push(t as u32);
-                continue;
+            match divided[..] {
+                [(_, label)] => (label, Vec::new()),
+                _ => (MIXED, divided),
             }
-            let parts = divided.into_iter();
-            cuts.extend(parts.map(|(polygon, label)| (t as u32, label, polygon)));
+        };
+        let triangles = surface.triangles.len();
+        let step = triangles.div_ceil(PARTS * threads.count()).max(1);
+        let ranges = (0..triangles).step_by(step);
+        let ranges = ranges.map(|first| first..triangles.min(first + step));
+        let looked = threads.map(
+            ranges.collect(),
+            || (),
+            |(), range| range.map(look).collect::<Vec<_>>(),
+        );
+        let (mut shares, mut cuts) = (vec![Share::default(); fragments], Vec::new());
+        for (t, (label, divided)) in (0..).zip(looked.into_iter().flatten()) {
+            match label {
+                MIXED => cuts.extend(divided.into_iter().map(|(polygon, l)| (t, l, polygon))),
+                label => shares[label as usize].whole.push(t),
+            }
         }
         (shares, cuts)
     }

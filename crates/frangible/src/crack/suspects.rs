@@ -1,5 +1,5 @@
 //! Weak points that may crack, or raise the peak, at the steps of a batch: all steps of a point at once, so that the
-//! arithmetic runs over the steps side by side. Parts of the body are looked at on [threads](crate::threads). What cracks do in the meantime only takes suspects away: release
+//! arithmetic runs over the steps side by side. Parts of the body are looked at on the caller's threads. What cracks do in the meantime only takes suspects away: release
 //! waves never raise the largest tension (λ_max(Q σ Q) ≤ max(λ_max(σ), 0), `stress/shadow.rs`).
 
 use super::field::StressField;

@@ -9,8 +9,7 @@ use crate::asset::{Asset, FixedPoints, Trace};
 use crate::body::Prepared;
 use crate::crack::{Crack, CrackSystem};
 use crate::fragment::Fragment;
-use crate::mesh::{Division, Parts};
-use crate::threads::Threads;
+use crate::mesh::{Division, Parts, Threads};
 
 /// Fragments, and the data about them that later steps need.
 pub(crate) struct Built {

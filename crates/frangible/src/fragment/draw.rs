@@ -2,7 +2,7 @@
 
 use super::Fragment;
 use crate::body::Prepared;
-use crate::mesh::{Division, DrawnPiece, RenderSurface};
+use crate::mesh::{Division, DrawnPiece, RenderSurface, Threads};
 
 /// Data for drawing fragments, left from building them.
 pub(crate) struct Undrawn {
@@ -18,6 +18,7 @@ pub(crate) fn draw(
     prepared: &Prepared,
     fragments: &mut [Fragment],
     undrawn: Undrawn,
+    threads: &Threads,
 ) {
     let Some(index) = &prepared.render else {
         return;
@@ -31,7 +32,7 @@ pub(crate) fn draw(
             centre: fragment.mass.centre,
         });
         let pieces: Vec<_> = pieces.collect();
-        index.divide(surface, &prepared.surface, division, &pieces)
+        index.divide(surface, &prepared.surface, division, &pieces, threads)
     };
     for (fragment, drawn) in fragments.iter_mut().zip(drawn) {
         fragment.render = Some(drawn);

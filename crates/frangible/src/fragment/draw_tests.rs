@@ -10,7 +10,7 @@ use crate::crack::{CrackSystem, Known};
 use crate::fragment::label::Labels;
 use crate::fragment::tests::block;
 use crate::fragment::{Built, build, draw};
-use crate::mesh::{EDGES, RenderMesh};
+use crate::mesh::{EDGES, RenderMesh, Threads};
 use crate::outcome::Fragment;
 use crate::rng::{Purpose, stream, uniform};
 use crate::state::Cuts;
@@ -112,7 +112,13 @@ fn broken(surface: &RenderSurface, count: u32, random: bool, seed: u64) -> Vec<F
         undrawn,
         ..
     } = build(&system, &labels, &body.prepared);
-    draw(surface, &body.prepared, &mut fragments, undrawn.unwrap());
+    draw(
+        surface,
+        &body.prepared,
+        &mut fragments,
+        undrawn.unwrap(),
+        &Threads::default(),
+    );
     fragments
 }
 

@@ -9,8 +9,8 @@ use super::points::PointTable;
 use crate::body::Body;
 use crate::crack::Known;
 use crate::fragment::Fragment;
+use crate::mesh::Threads;
 use crate::state::Cuts;
-use crate::threads::Threads;
 
 /// An edge of the fracture mesh, its lower node first, and the place where it is cut, from there (0) to the other node (1).
 pub type CutEdge = ([u32; 2], f64);
@@ -39,7 +39,13 @@ pub fn pieces_of_cuts(
         ..
     } = build_cracked(asset, &[], &labels, prepared, &Threads::default());
     if let (Some(surface), Some(undrawn)) = (&asset.render, undrawn) {
-        draw(surface, prepared, &mut fragments, undrawn);
+        draw(
+            surface,
+            prepared,
+            &mut fragments,
+            undrawn,
+            &Threads::default(),
+        );
     }
     let labelled = traces.iter().map(|t| t.label).zip(fragments).collect();
     (labelled, labels.of_node)

@@ -1,7 +1,7 @@
-//! Threads that a caller lends to a break: the core keeps none of its own.
+//! Threads that a caller lends to a break, which keeps none of its own.
 //!
-//! The stress at the weak points and the pieces are computed part by part. Parts are independent, and what they find is put together in a fixed order, so
-//! the results are the same bits for any number of threads.
+//! The stress at the weak points, the pieces and their drawn surfaces are computed part by part. The parts are independent of each other, and their
+//! results are put together in a fixed order, so the bits are the same for any number of threads.
 
 use std::fmt;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -34,12 +34,13 @@ impl Threads {
     }
 
     /// Number of threads.
-    pub(crate) fn count(&self) -> usize {
+    #[must_use]
+    pub fn count(&self) -> usize {
         self.0.as_ref().map_or(1, |pool| pool.threads().max(1))
     }
 
     /// Computes `each` of a list's items; the results are in the order of the items. `state`: data that a thread keeps from item to item.
-    pub(crate) fn map<T: Send, S, R: Send>(
+    pub fn map<T: Send, S, R: Send>(
         &self,
         items: Vec<T>,
         state: impl Fn() -> S + Sync,
