@@ -4,6 +4,7 @@ mod args;
 mod gallery;
 mod output;
 
+use std::path::Path;
 use std::process::ExitCode;
 
 use clap::Parser;
@@ -26,6 +27,8 @@ use serde_json::{Map, Value, json};
 use args::{BenchArgs, Cli, Command, CompareArgs, Measured, PiecesArgs, RealBreaksArgs, Write};
 use output::{Bar, Place};
 
+/// Folder for the cracks that `tools/plot.py` draws.
+const PATTERNS: &str = "target/lab/experiments";
 /// Folder for the sounds that `tools/plot.py` draws.
 const SOUNDS: &str = "target/lab/sound";
 
@@ -73,6 +76,7 @@ fn verify(args: &Write) -> Result<()> {
     Err(format!("{} checks failed: {}", failed.len(), failed.join("; ")).into())
 }
 
+/// Also leaves the cracks of single plates where `tools/plot.py` looks for them.
 fn experiments(args: &Write) -> Result<()> {
     let place = Place::new(args, "experiments", Measures::Model)?;
     let bar = Bar::new();
@@ -80,6 +84,10 @@ fn experiments(args: &Write) -> Result<()> {
     let hear = |share| bar.show("breaking plates and balls", share);
     let found = Experiments::compute(plans.0, plans.1, plans.2, &hear)?;
     drop(bar);
+    let folder = Path::new(PATTERNS);
+    make_folder(folder, &[], "--write")?;
+    let patterns = serde_json::to_vec(&found.stars.patterns())?;
+    write_atomically(&folder.join("patterns.json"), &patterns)?;
     place.put(false, &found)
 }
 
