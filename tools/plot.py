@@ -3,8 +3,8 @@
 
     python3 tools/plot.py [NAME ...]
 
-NAME is a data file of docs/data without its ending; all of those that are there without one. Needs matplotlib; `sound` and `levels` also need the
-sounds that the laboratory leaves in target/lab/sound.
+NAME is a data file of docs/data without its ending; all of those that are there without one. Needs matplotlib. `sound` and `levels` also need the
+sounds, and one picture of `experiments` the cracks, that `frangible-lab` leaves in target/lab.
 """
 
 import json
@@ -21,6 +21,7 @@ from matplotlib.collections import LineCollection
 ROOT = Path(__file__).resolve().parent.parent
 DOCS = ROOT / "docs"
 SOUNDS = ROOT / "target" / "lab" / "sound"
+PATTERNS = ROOT / "target" / "lab" / "experiments" / "patterns.json"
 # Okabe and Ito's colours, which the colour-blind tell apart too.
 COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"]
 # Of spectrograms: silence has no level, and is as black as what is soft.
@@ -96,11 +97,14 @@ def experiments(data):
             plt.plot(m, [law["masses"] / bodies * s for s in share], "--", color=colour, label=f"{run['name']}, fitted")
     label("Pieces heavier than a mass", "mass, masses of the body", "pieces per body", "log", "log")
     save("experiments/masses.png")
-    patterns = stars["patterns"]
+    if not PATTERNS.exists():
+        print(f"star-patterns.png stays: {PATTERNS.relative_to(ROOT)} is missing; `frangible-lab experiments` leaves it there")
+        return
+    patterns = json.loads(PATTERNS.read_text(encoding="utf-8"))
     columns = len(patterns) // 2
     figure, grid = plt.subplots(2, columns, figsize=(2.5 * columns, 5.6))
     for axes, pattern in zip(grid.flat, patterns):
-        name = "default" if pattern["variant"] == "default" else "at once"
+        name = "default" if pattern["variant"] == "default" else "the paper's"
         lines(axes, pattern["lines_mm"] or [], 50, f"{name}, {pattern['speed_m_s']:g} m/s")
         axes.add_patch(plt.Circle((0, 0), 10, fill=False, color=COLOURS[1], linewidth=0.8))
     figure.suptitle("Cracks of a 1 mm PMMA plate")

@@ -114,7 +114,9 @@ const STEPS: &[Step] = &[
     by_hand("counts", &[CORE, &["crates/frangible-lab"]], || {
         counts(false)
     }),
-    by_hand("fuzz", &[CORE, SCENES, &["fuzz"]], || fuzz(USUAL_SECONDS)),
+    by_hand("fuzz", &[CORE, SCENES, &["fuzz"]], || {
+        fuzz(USUAL_SECONDS, &[])
+    }),
     by_hand(
         "book",
         &[

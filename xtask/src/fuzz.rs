@@ -46,10 +46,11 @@ struct Folders {
     programs: PathBuf,
 }
 
-/// Builds all targets and runs each for `seconds`. Returns the lines that sum it up; one of them says so if there is no C++ compiler.
+/// Builds the targets of these names, or all if there is none, and runs each for `seconds`. Returns the lines that sum it up; one of them says so if
+/// there is no C++ compiler.
 ///
 /// An input that breaks a target is an error that names the file and how to try it again.
-pub(crate) fn fuzz(seconds: u64) -> Result<Vec<String>> {
+pub(crate) fn fuzz(seconds: u64, wanted: &[&str]) -> Result<Vec<String>> {
     if !cfg!(unix) || !cpp_compiler() {
         return skipped("fuzz", "no C++ compiler that libFuzzer supports was found");
     }
@@ -59,8 +60,15 @@ pub(crate) fn fuzz(seconds: u64) -> Result<Vec<String>> {
     }
     let host = host()?;
     let folders = folders(&host);
-    let names = names(&folders.fuzz)?;
-    build(&folders, &host)?;
+    let mut names = names(&folders.fuzz)?;
+    if let Some(unknown) = wanted.iter().find(|name| !names.iter().any(|n| n == *name)) {
+        return Err(format!(
+            "there is no fuzz target `{unknown}`; the targets are {}",
+            names.join(", ")
+        ));
+    }
+    names.retain(|name| wanted.is_empty() || wanted.contains(&name.as_str()));
+    build(&folders, &host, wanted)?;
     let at_once = std::thread::available_parallelism().map_or(1, usize::from);
     let mut lines = Vec::new();
     for round in names.chunks(at_once) {
@@ -107,7 +115,18 @@ fn names(fuzz: &Path) -> Result<Vec<String>> {
     Ok(names)
 }
 
-fn build(folders: &Folders, host: &str) -> Result {
+/// Builds one target after the other if some are wanted: cargo-fuzz takes one name, or builds all.
+fn build(folders: &Folders, host: &str, wanted: &[&str]) -> Result {
+    if wanted.is_empty() {
+        return announced(&mut build_command(folders, host));
+    }
+    for name in wanted {
+        announced(build_command(folders, host).arg(name))?;
+    }
+    Ok(())
+}
+
+fn build_command(folders: &Folders, host: &str) -> Command {
     // Without a sanitizer: the stable compiler has none, and there is no unsafe code in the readers. Overflow checks
     // and debug assertions are on. One code generation unit, cargo-fuzz's default, would leave cores idle.
     let mut command = cargo(&["fuzz", "build", "--sanitizer", "none"]);
@@ -117,7 +136,7 @@ fn build(folders: &Folders, host: &str) -> Result {
         .arg("--target-dir")
         .arg(&folders.target)
         .env_remove("CARGO_TARGET_DIR");
-    announced(&mut command)
+    command
 }
 
 fn run_target(folders: &Folders, name: &str, seconds: u64) -> Result<String> {

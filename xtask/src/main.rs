@@ -40,7 +40,8 @@ cargo xtask outcomes [--write FILE | --against FILE]
                               break all built-in scenes, and print, store or compare pieces, areas, energies and bit patterns
 cargo xtask counts [--write]  count the instructions of each stage; fail if one grew by over 5 %, or store the counts with --write
 cargo xtask rebake            regenerate the baked bodies and states in fuzz/corpus and in the tests of the core crate
-cargo xtask fuzz [SECONDS]    fuzz each file reader, blows, worlds and scenes for this long each [default: 30]
+cargo xtask fuzz [SECONDS [TARGET...]]
+                              fuzz each file reader, blows, worlds and scenes for this long each [default: 30], or only these targets
 cargo xtask web [--out DIR]   build the web viewer as a static folder [default: target/web/page]
 cargo xtask web-test          build the web viewer, and test scenes and a mesh in Chromium with software rendering
 cargo xtask web-bits          run scenes in the simulation module of the web viewer in Node, and compare every bit with a native run
@@ -108,9 +109,9 @@ fn run(words: &[&str]) -> Result {
         ["ci", "--all"] => ci::ci(true, &[]),
         ["ci", steps @ ..] => ci::ci(false, steps),
         ["rebake"] => rebake(),
-        ["fuzz"] => fuzz::fuzz(fuzz::USUAL_SECONDS).map(drop),
-        ["fuzz", seconds] => match seconds.parse() {
-            Ok(seconds @ 1..) => fuzz::fuzz(seconds).map(drop),
+        ["fuzz"] => fuzz::fuzz(fuzz::USUAL_SECONDS, &[]).map(drop),
+        ["fuzz", seconds, targets @ ..] => match seconds.parse() {
+            Ok(seconds @ 1..) => fuzz::fuzz(seconds, targets).map(drop),
             _ => Err(format!(
                 "`{seconds}` is not a whole number of seconds from 1, as in `cargo xtask fuzz 60`"
             )),

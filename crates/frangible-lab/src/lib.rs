@@ -7,6 +7,7 @@
 //! - [`figures`]: the numbers behind the figures of the paper on which the model is based;
 //! - [`bench`](mod@bench): times, memory and instruction counts;
 //! - [`reference`](mod@reference): a literal implementation of the paper's algorithms, with which the pipeline must agree;
+//! - [`real_breaks`](mod@real_breaks): counts of cracks and pieces, for the comparison with descriptions of real breaks;
 //! - [`sound`]: the sound of struck and broken bodies, compared with closed-form solutions and published spectra;
 //! - [`compare`](mod@compare): other fracture methods, given the same impact;
 //! - [`gpu`]: crack initiation of many impacts on a graphics card;
@@ -18,6 +19,7 @@ pub mod data;
 pub mod figures;
 pub mod gpu;
 pub mod page;
+pub mod real_breaks;
 pub mod reference;
 pub mod sound;
 pub mod verify;

@@ -19,6 +19,7 @@
 //! ```
 //!
 //! In braces stands the path of a value (`points.0.1`), a factor if there is one, and a format: `.3` for three decimals, `3` for three significant digits.
+//! A value that is null, or below one that is, is shown as a dash.
 
 use std::path::Path;
 
@@ -78,8 +79,7 @@ fn line(pattern: &str, value: &Value) -> Result<String> {
         text += before;
         let (path, format) = about.split_once(':').unwrap_or((about, ""));
         let (path, factor) = path.split_once('*').unwrap_or((path, "1"));
-        let found = value.pointer(&format!("/{}", path.replace('.', "/")));
-        let found = found.ok_or_else(|| format!("there is no `{path}` in {value}"))?;
+        let found = at(value, path).ok_or_else(|| format!("there is no `{path}` in {value}"))?;
         text += &match found {
             Value::Null => "–".into(),
             Value::String(words) => words.replace('|', "\\|"),
@@ -92,6 +92,15 @@ fn line(pattern: &str, value: &Value) -> Result<String> {
         rest = after;
     }
     Ok(text + rest)
+}
+
+/// The value at a path; below a null everything is null.
+fn at<'a>(value: &'a Value, path: &str) -> Option<&'a Value> {
+    path.split('.').try_fold(value, |value, key| match value {
+        Value::Null => Some(value),
+        Value::Array(items) => items.get(key.parse::<usize>().ok()?),
+        _ => value.get(key),
+    })
 }
 
 /// A number with decimals (`.3`) or significant digits (`3`); of the latter, trailing zeros go.
@@ -137,7 +146,10 @@ mod tests {
         let row = json!({ "name": "a|b", "of": [[1, 0.25]], "none": null, "n": 12 });
         let text = line("{name}: {of.0.1*100:.0} %, {none}, {n}", &row).unwrap();
         assert_eq!(text, "a\\|b: 25 %, –, 12");
-        assert!(line("{missing}", &row).is_err());
+        assert_eq!(line("{none.of.it:.1}", &row).unwrap(), "–");
+        for missing in ["{missing}", "{of.0.7}", "{name.of}"] {
+            assert!(line(missing, &row).is_err(), "{missing}");
+        }
     }
 
     #[test]

@@ -5,9 +5,10 @@
 //! - [`contacts`]: rate and worst-case time of rejected contacts;
 //! - [`again`]: frame times of scenes with pieces that break again;
 //! - [`gallery`]: whole breaks of the gallery's bodies, compared with the project's goals;
+//! - [`roofline`]: speed of the initiation as a share of what the machine can do;
 //! - [`stages`]: single stages on a small body, for counting instructions.
 //!
-//! A haptic loop, the roofline of the initiation, a shop of a thousand breakable things, batches on a GPU and the size of bodies in memory are examples
+//! A haptic loop, a shop of a thousand breakable things, batches on a GPU and the size of bodies in memory are examples
 //! of this crate.
 
 pub mod again;
@@ -17,6 +18,7 @@ mod fingerprint;
 pub mod gallery;
 mod grid;
 pub mod machine;
+pub mod roofline;
 pub mod stages;
 pub mod stats;
 pub mod subjects;

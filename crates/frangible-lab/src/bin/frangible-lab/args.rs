@@ -35,6 +35,8 @@ pub(crate) enum Command {
     Compare(CompareArgs),
     /// Draw the pictures of the documentation's gallery, or with --hero the film on the first page (a minute each)
     Gallery(GalleryArgs),
+    /// Count cracks and pieces of struck scenes, for the comparison with descriptions of real breaks (minutes)
+    RealBreaks(RealBreaksArgs),
     /// Fill the quotations of data in the pages of a folder
     Pages {
         /// Folder of the pages
@@ -70,6 +72,16 @@ pub(crate) struct FiguresArgs {
     pub(crate) write: Write,
 }
 
+#[derive(Args, Clone, Debug)]
+pub(crate) struct RealBreaksArgs {
+    #[command(flatten)]
+    pub(crate) write: Write,
+
+    /// Number of bodies of each subject, 1 to 1000; they differ in their weak points [default: 10]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1000))]
+    pub(crate) seeds: Option<u64>,
+}
+
 /// Subject of a benchmark.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum Measured {
@@ -79,6 +91,8 @@ pub(crate) enum Measured {
     Gallery,
     /// Rejected contacts
     Contacts,
+    /// The initiation on bodies of Table 1, compared with the peaks of this machine
+    Roofline,
     /// Scenes with pieces that break again, with a game's settings
     Again,
 }

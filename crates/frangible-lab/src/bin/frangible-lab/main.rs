@@ -4,15 +4,17 @@ mod args;
 mod gallery;
 mod output;
 
+use std::path::Path;
 use std::process::ExitCode;
 
 use clap::Parser;
 use frangible_lab::Result;
 use frangible_lab::bench::cache::Cache;
 use frangible_lab::bench::subjects::chosen;
-use frangible_lab::bench::{again, contacts, gallery as breaks, table1};
+use frangible_lab::bench::{again, contacts, gallery as breaks, roofline, table1};
 use frangible_lab::compare::{Method, Options, SCENES, broken_scene, picture};
 use frangible_lab::data::Measures;
+use frangible_lab::real_breaks;
 use frangible_lab::sound::{Heard, Levels, RATE};
 use frangible_lab::verify::CASES;
 use frangible_lab::verify::experiments::{Experiments, MassPlan, RearStarPlan, StarPlan};
@@ -22,9 +24,11 @@ use frangible_recording::{make_folder, write_atomically};
 use frangible_scenes::{GamePlan, scene, scene_of};
 use serde_json::{Map, Value, json};
 
-use args::{BenchArgs, Cli, Command, CompareArgs, Measured, PiecesArgs, Write};
+use args::{BenchArgs, Cli, Command, CompareArgs, Measured, PiecesArgs, RealBreaksArgs, Write};
 use output::{Bar, Place};
 
+/// Folder for the cracks that `tools/plot.py` draws.
+const PATTERNS: &str = "target/lab/experiments";
 /// Folder for the sounds that `tools/plot.py` draws.
 const SOUNDS: &str = "target/lab/sound";
 
@@ -40,6 +44,7 @@ fn main() -> ExitCode {
         Command::Bench(args) => bench(&args),
         Command::Compare(args) => compare(&args),
         Command::Gallery(args) => gallery::run(&args),
+        Command::RealBreaks(args) => count_real_breaks(&args),
         Command::Pages { docs } => output::fill_pages(&docs),
     };
     match result {
@@ -72,6 +77,7 @@ fn verify(args: &Write) -> Result<()> {
     Err(format!("{} checks failed: {}", failed.len(), failed.join("; ")).into())
 }
 
+/// Also leaves the cracks of single plates where `tools/plot.py` looks for them.
 fn experiments(args: &Write) -> Result<()> {
     let place = Place::new(args, "experiments", Measures::Model)?;
     let bar = Bar::new();
@@ -79,6 +85,10 @@ fn experiments(args: &Write) -> Result<()> {
     let hear = |share| bar.show("breaking plates and balls", share);
     let found = Experiments::compute(plans.0, plans.1, plans.2, &hear)?;
     drop(bar);
+    let folder = Path::new(PATTERNS);
+    make_folder(folder, &[], "--write")?;
+    let patterns = serde_json::to_vec(&found.stars.patterns())?;
+    write_atomically(&folder.join("patterns.json"), &patterns)?;
     place.put(false, &found)
 }
 
@@ -144,6 +154,15 @@ fn figures(names: &[String], args: &Write) -> Result<()> {
     place.put(false, &found)
 }
 
+fn count_real_breaks(args: &RealBreaksArgs) -> Result<()> {
+    let place = Place::new(&args.write, "real-breaks", Measures::Scenes)?;
+    let bar = Bar::new();
+    let seeds = args.seeds.unwrap_or(real_breaks::SEEDS);
+    let found = real_breaks::compute(seeds, &|share| bar.show("breaking scenes", share))?;
+    drop(bar);
+    place.put(false, &found)
+}
+
 fn bench(args: &BenchArgs) -> Result<()> {
     let cache = Cache {
         folder: args.cache.clone(),
@@ -165,8 +184,15 @@ fn bench(args: &BenchArgs) -> Result<()> {
             let subjects = breaks::chosen(&args.bodies)?;
             ("breaks", json!(breaks::measure(&subjects, runs)?))
         }
+        Measured::Roofline => {
+            let found = roofline::measure(&args.bodies, &cache)?;
+            ("roofline", found)
+        }
         _ if !args.bodies.is_empty() => {
-            return Err("--body applies only to `bench table1` and `bench gallery`".into());
+            return Err(
+                "--body applies only to `bench table1`, `bench gallery` and `bench roofline`"
+                    .into(),
+            );
         }
         Measured::Contacts => ("contacts", json!(contacts::measure(&cache)?)),
         Measured::Again => {

@@ -266,7 +266,7 @@ impl StarRun {
 }
 
 impl Stars {
-    /// The numbers: means for each run, the counts at other circles, the variants, and the cracks of the first plates, mm.
+    /// The numbers: means for each run, the counts at other circles, and the variants.
     #[must_use]
     pub fn data(&self) -> Value {
         let plan = &self.plan;
@@ -298,16 +298,22 @@ impl Stars {
             .chain(&self.variants)
             .collect();
         data["variants"] = json!(variants.iter().map(|run| run.data()).collect::<Vec<_>>());
+        data
+    }
+
+    /// The cracks of the first plates, mm, of the default model and the first variant: megabytes, only for the picture.
+    #[must_use]
+    pub fn patterns(&self) -> Value {
         let lines = |run: &StarRun, speed: f64| {
             let impacts = run.impacts.iter();
             let mut first = impacts.filter(|m| m.speed == speed && m.seed == 1);
             let lines = first.next().map(|m| m.pattern.millimetres());
             json!({ "variant": run.variant, "speed_m_s": speed, "lines_mm": lines })
         };
-        let drawn = variants.iter().take(2);
-        let drawn = drawn.flat_map(|run| plan.variant_speeds.iter().map(|&v| lines(run, v)));
-        data["patterns"] = json!(drawn.collect::<Vec<_>>());
-        data
+        let drawn = self.measured().into_iter().chain(self.variants.first());
+        let speeds = &self.plan.variant_speeds;
+        let drawn = drawn.flat_map(|run| speeds.iter().map(|&speed| lines(run, speed)));
+        drawn.collect()
     }
 }
 

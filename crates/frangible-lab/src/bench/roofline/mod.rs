@@ -1,7 +1,5 @@
 //! Speed of the initiation as a share of what the machine can do: operations and bytes of each stage against measured peaks.
 //!
-//! `cargo run --release -p frangible-lab --example roofline -- [BODY …]` prints JSON, for `docs/data/roofline.json`.
-//!
 //! A stage can be no faster than its operations at the peak of arithmetic, nor than its bytes at the rate of the memory that holds
 //! them: the *roofline*. Reached is the longer of the two over the time it takes.
 
@@ -13,17 +11,18 @@ use std::time::{Duration, Instant};
 use frangible::internals::stress::{DisplacementBatch, Law};
 use frangible::internals::{Drive, Stage, Vibration};
 use frangible::{Body, Breakable, FractureConfig};
-use frangible_lab::bench::cache::Cache;
-use frangible_lab::bench::subjects::{MODES, Subject, chosen};
-use frangible_lab::data::{Measures, stored};
-use frangible_lab::{Error, Result};
 use serde_json::{Value, json};
 
-use peak::Arithmetic;
+use self::peak::Arithmetic;
+use super::cache::Cache;
+use super::subjects::{MODES, Subject, chosen};
+use crate::{Error, Result};
 
 /// Bodies that are measured where none is named.
 const BODIES: [&str; 3] = ["glass", "slab-moderate", "rabbit"];
 
+/// Sizes of memory whose rate is listed, bytes: a half of a usual second-level cache, a share of the third-level cache, main memory.
+const MEMORY: [usize; 3] = [1 << 19, 1 << 23, 1 << 28];
 /// Factor of the strengths, so that nothing breaks and every weak point is analysed to the end.
 const TOUGHER: f64 = 1e6;
 /// The best of so many runs counts: others may use the machine.
@@ -55,22 +54,28 @@ fn share(need: [f64; 2], rates: [f64; 2], seconds: f64) -> f64 {
 }
 
 /// Measures the machine, then bodies in the paper's model, every weak point at every time step.
-fn main() -> Result<()> {
-    let mut names: Vec<String> = std::env::args().skip(1).collect();
-    if names.is_empty() {
-        names = BODIES.map(String::from).into();
-    }
-    let cache = Cache {
-        folder: "target/bench".into(),
-        rebake: false,
+///
+/// # Errors
+/// A name of no body of Table 1; an error of the bake or of the impact.
+pub fn measure(names: &[String], cache: &Cache) -> Result<Value> {
+    let names = match names {
+        [] => BODIES.map(String::from).to_vec(),
+        names => names.to_vec(),
     };
     let arithmetic = Arithmetic::measure();
     let bodies = chosen(&names)?.into_iter();
-    let bodies = bodies.map(|subject| of_body(subject, &cache, &arithmetic));
+    let bodies = bodies.map(|subject| of_body(subject, cache, &arithmetic));
     let bodies: Vec<Value> = bodies.collect::<Result<_>>()?;
-    let found = json!({ "arithmetic": arithmetic, "bodies": bodies });
-    println!("{:#}", stored(Measures::Model, true, &found)?);
-    Ok(())
+    let reading = MEMORY.map(|bytes| json!({ "bytes": bytes, "per_s": peak::read(bytes) }));
+    Ok(json!({
+        "vector": arithmetic.lanes,
+        "arithmetic": [
+            { "number": "f32", "per_s": arithmetic.separate },
+            { "number": "f64", "per_s": arithmetic.double },
+        ],
+        "reading": reading,
+        "bodies": bodies,
+    }))
 }
 
 fn of_body(subject: &Subject, cache: &Cache, arithmetic: &Arithmetic) -> Result<Value> {

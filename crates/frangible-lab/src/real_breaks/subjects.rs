@@ -3,16 +3,16 @@
 use std::f32::consts::FRAC_PI_2;
 use std::sync::Arc;
 
+use crate::Result;
 use frangible::glam::{DVec3, Quat, Vec3};
 use frangible::{Breakable, Contact, FractureConfig, Material, Striker};
 use frangible_bake::{BakeSpec, Shape, SolidShape};
-use frangible_lab::Result;
 use frangible_mesh::DistanceSolid;
 use frangible_scenes::{
     Place, Projectile, Region, Scene, Support, bake, breakable, first_break, scene,
 };
 
-use crate::features::{
+use super::features::{
     Feature, bottle, bowl, bulb, chocolate, flat, plate, solid, statue, tumbler, wine_glass,
 };
 

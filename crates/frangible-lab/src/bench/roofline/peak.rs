@@ -4,7 +4,6 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use pulp::{Arch, Simd, WithSimd};
-use serde::Serialize;
 
 /// Sums side by side, so that none waits for its last: more than the latency of a multiply-add times its rate.
 const CHAINS: usize = 12;
@@ -15,7 +14,7 @@ const RUNS: usize = 40;
 /// Bytes that pass in one run, at least.
 const PASSED: usize = 32 << 20;
 /// A rate of arithmetic on one thread.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Arithmetic {
     /// f32, one multiplication and one addition: the run time's operations, whose bits must not depend on the processor.
     pub(crate) separate: f64,

@@ -6,7 +6,7 @@ use frangible::Outcome;
 use frangible::glam::Vec3;
 use frangible::internals::CrackTrace;
 
-use crate::subjects::Subject;
+use super::subjects::Subject;
 
 /// The part of a crack in one tetrahedron.
 #[derive(Clone, Copy)]

@@ -1,18 +1,18 @@
 //! Scenes from bake to recording.
 
+mod placed;
+mod rest;
+
 use std::sync::{Arc, OnceLock};
 
 use frangible::Asset;
 use frangible::glam::Vec3;
 use frangible_export::write_glb;
-use frangible_recording::{RecordedTouch, Recording};
+use frangible_recording::RecordedTouch;
 use frangible_scenes::{
     BakedBody, BodySource, Place, Projectile, ProjectileKind, Region, Run, SCENE_NAMES, Scene,
     SceneError, Support, bake, play, scene,
 };
-
-use crate::common::drawn::{Lie, closed, lies};
-use crate::common::made::made;
 
 /// A built-in scene with few modes.
 fn cheap(name: &str) -> (Scene, Vec<BakedBody>) {
@@ -196,100 +196,6 @@ fn the_same_scene_gives_the_same_file() {
     );
 }
 
-/// Heights of the lowest vertex of everything seen in the last frame, m.
-fn lowest_vertices(recording: &Recording) -> Vec<(String, f32)> {
-    let last = recording.frame_count - 1;
-    let seen = recording
-        .nodes
-        .iter()
-        .enumerate()
-        .filter(|(_, node)| node.visible.contains(&last));
-    seen.map(|(i, node)| {
-        let pose = recording.pose(i, last);
-        let heights = recording.meshes[node.mesh]
-            .positions
-            .iter()
-            .map(|&p| (pose.rotation.normalize() * p + pose.translation).y);
-        (node.name.clone(), heights.fold(f32::INFINITY, f32::min))
-    })
-    .collect()
-}
-
-#[test]
-fn pieces_end_on_the_floor() {
-    let (_, [run, _]) = glass();
-    let lowest = lowest_vertices(&run.recording);
-    let heights = || lowest.iter().map(|l| 1e3 * l.1);
-    println!(
-        "lowest {:.2} mm, highest {:.2} mm",
-        heights().fold(f32::MAX, f32::min),
-        heights().fold(f32::MIN, f32::max)
-    );
-    assert_eq!(lowest.len(), run.breaks[0].masses.len());
-    for (name, y) in lowest {
-        assert!(y > -0.003, "{name} lies {:.1} mm below the floor", -1e3 * y);
-        assert!(y < 0.060, "{name} hovers {:.1} mm above the floor", 1e3 * y);
-    }
-}
-
-#[test]
-fn pieces_at_rest_lie_where_they_are_drawn() {
-    let (_, [run, _]) = glass();
-    let lies = lies(&run.recording);
-    let most = |f: fn(&Lie) -> f64| 1e3 * lies.iter().map(f).fold(0.0, f64::max);
-    println!(
-        "{} at rest, {:.2} mm in the floor, {:.2} mm in another, {:.2} mm apart",
-        lies.len(),
-        most(|lie| lie.in_floor),
-        most(|lie| lie.in_other.0),
-        most(|lie| lie.apart)
-    );
-    // A few may still roll.
-    assert!(10 * lies.len() > 9 * run.breaks[0].masses.len());
-    for lie in lies {
-        assert!(lie.is_true(), "{lie}");
-    }
-}
-
-#[test]
-fn pieces_of_made_meshes_at_rest_lie_where_they_are_drawn() {
-    let (mut resting, mut drawn, mut off) = (0, 0, Vec::new());
-    for seed in 0..4 {
-        let (scene, baked) = made(seed).unwrap();
-        let run = play(&scene, &baked, &mut |_| {}).unwrap();
-        let lies = lies(&run.recording);
-        resting += lies.len();
-        let wrong = lies.into_iter().filter(|lie| !lie.is_true());
-        off.extend(wrong.map(|lie| format!("seed {seed}, {lie}")));
-        // Faces that close the gap between an author's surface and crack faces may lie on each other, so that an edge has four: sides are not
-        // counted. The mesh of a body follows that surface within a part of a tetrahedron, which is much of a small piece.
-        let things = closed(&run.recording);
-        let whole: f64 = things.iter().map(|c| c.volume).sum();
-        let off: f64 = things.iter().map(|c| c.volume * c.volume_off).sum();
-        assert!(off < 5e-3 * whole, "seed {seed}: {off} of {whole} m³");
-        drawn += things.len();
-    }
-    println!(
-        "{drawn} drawn, {resting} at rest, {} of them off: {off:#?}",
-        off.len()
-    );
-    assert!(resting > 20, "{resting} of {drawn}");
-    assert!(off.is_empty(), "{off:#?}");
-}
-
-#[test]
-fn drawn_pieces_are_closed_and_hold_their_volume() {
-    let (_, [run, _]) = glass();
-    let closed = closed(&run.recording);
-    assert!(closed.len() > run.breaks[0].masses.len());
-    for c in closed {
-        let (name, sides) = (&c.name, c.open_sides);
-        assert_eq!(sides, 0, "{name}: {sides} sides do not have two faces");
-        let off = 100.0 * c.volume_off;
-        assert!(off < 0.5, "{name}: its volume is off by {off:.3} %");
-    }
-}
-
 #[test]
 fn a_ball_flies_on_through_the_pane() {
     let (mut scene, baked) = cheap("pane");
@@ -429,56 +335,4 @@ fn a_body_without_a_floor_falls_freely() {
     let turned = 2.0 * last.rotation.normalize().y.abs().asin();
     // Damping of 0.8 1/s takes a tenth of the turn.
     assert!((0.8 * 2.0 * t..2.0 * t).contains(&turned), "{turned} rad");
-}
-
-#[test]
-fn a_body_inside_the_floor_is_refused() {
-    let (scene, baked) = two_panes();
-    let mut scene = scene.clone();
-    scene.bodies[1].place = Place::Centre(Vec3::new(2.0, 0.15, 0.0));
-    let message = play(&scene, baked, &mut |_| {}).unwrap_err().to_string();
-    assert!(
-        message.contains("`other` would start 50.0 mm below"),
-        "{message}"
-    );
-}
-
-#[test]
-fn bodies_inside_each_other_are_refused_by_name_and_bodies_that_touch_are_not() {
-    let (scene, baked) = two_panes();
-    let mut scene = scene.clone();
-    scene.projectiles.clear();
-    scene.duration = 1.0 / 60.0;
-    let mut play_at = |x: f32, z: f32| {
-        scene.bodies[1].place = Place::Standing { over: [x, z] };
-        play(&scene, baked, &mut |_| {})
-    };
-    // In the same place, a little aside, side by side with a corner in common, and with half of their thickness.
-    for (x, z) in [(0.0, 0.0), (0.01, 0.0), (0.3, 0.001), (0.1, 0.002)] {
-        let message = play_at(x, z).expect_err("an overlap").to_string();
-        for part in ["`pane`", "`other`", "overlap", "position"] {
-            assert!(message.contains(part), "{message}");
-        }
-    }
-    // Side by side, one behind the other.
-    for (x, z) in [(0.4, 0.0), (0.4001, 0.0), (0.0, 0.004), (0.0, 0.01)] {
-        play_at(x, z).unwrap();
-    }
-}
-
-#[test]
-fn no_bodies_of_a_built_in_scene_overlap() {
-    for name in SCENE_NAMES {
-        let mut scene = scene(name).unwrap();
-        if scene.bodies.len() < 2 {
-            continue;
-        }
-        for body in &mut scene.bodies {
-            (body.modes, body.followed) = (12, None);
-        }
-        scene.duration = 1.0 / 60.0;
-        let baked = bake(&scene).unwrap();
-        let played = play(&scene, &baked, &mut |_| {});
-        assert!(played.is_ok(), "{name}: {}", played.unwrap_err());
-    }
 }

@@ -2,7 +2,7 @@
 
 use frangible::glam::Vec3;
 
-use crate::broken::{Broken, Cut, meridional, radius};
+use super::broken::{Broken, Cut, meridional, radius};
 
 /// A number that is read off a broken body, if that body has it.
 pub(crate) type Reading = Box<dyn Fn(&Broken) -> Option<f64>>;

@@ -1,38 +1,41 @@
 //! Measures of the cracks of the scenes: how many run away from the blow, how many around it, where the first one starts, which parts stay whole. The
 //! page docs/real-breaks.md puts them beside descriptions of real breaks.
 //!
-//!     cargo run --release -p frangible-lab --example real_breaks -- [SEEDS] > docs/data/real-breaks.json
-//!
 //! The blow is that of a scene's first break, computed once; only the seed of the weak points changes.
 
 mod broken;
 mod features;
 mod subjects;
 
-use broken::Broken;
-use features::common;
 use frangible::internals::impact_traced;
 use frangible::{Outcome, impact};
-use frangible_lab::Result;
-use frangible_lab::data::{Measures, stored};
 use serde_json::{Value, json};
-use subjects::{Struck, Subject};
 
-fn main() -> Result<()> {
-    let seeds: u64 = match std::env::args().nth(1) {
-        Some(n) => n.parse()?,
-        None => 10,
-    };
+use self::broken::Broken;
+use self::features::common;
+use self::subjects::{Struck, Subject};
+use crate::{Progress, Result};
+
+/// Bodies of each subject, which differ in their weak points, unless told otherwise.
+pub const SEEDS: u64 = 10;
+
+/// Breaks every subject with `seeds` seeds, and counts.
+///
+/// # Errors
+/// An error of the bake or of the impact.
+pub fn compute(seeds: u64, hear: Progress<'_>) -> Result<Value> {
     let subjects = subjects::all()?;
-    let subjects = subjects.iter().map(|subject| measure(subject, seeds));
+    let count = subjects.len() as f64;
+    let subjects = subjects.iter().enumerate().map(|(i, subject)| {
+        hear(i as f64 / count);
+        measure(subject, seeds)
+    });
     let subjects: Vec<Value> = subjects.collect::<Result<_>>()?;
     let slowest = json!({
         "bottle_m_s": slowest_of(&subjects::bottle_and_heavy_ball()?, seeds)?,
         "glass_m_s": slowest_of(&subjects::falling_glass()?, seeds)?,
     });
-    let found = json!({ "seeds": seeds, "subjects": subjects, "slowest": slowest });
-    println!("{:#}", stored(Measures::Scenes, false, &found)?);
-    Ok(())
+    Ok(json!({ "seeds": seeds, "subjects": subjects, "slowest": slowest }))
 }
 
 /// Breaks a subject with every seed. The numbers are in the features' own units.
