@@ -201,7 +201,7 @@ fn first_wave(
 /// All motions of an infinite wall up to wave number k move a place by `Σ ξ² = k²/4πμ` per unit impulse, and so do the modes of a body, on average.
 /// But they come in shells: at the middle of a square plate only every fourth is felt, in pairs. So k is taken from the sum over the actual modes,
 /// which elements that are too stiff do not mislead. Measured: without this a wall with 120 modes and one with 300 differ twice as much, on a glass
-/// and on a bowl (`frangible-bake/tests/blow.rs`).
+/// and on a bowl (`frangible-bake/tests/blow`).
 fn matched(
     body: &Body,
     touch: &Touch,
