@@ -53,6 +53,7 @@ mod rapier;
 mod ready;
 #[cfg(feature = "sound")]
 mod sound;
+mod threads;
 mod work;
 
 use std::sync::Arc;
@@ -240,7 +241,11 @@ impl Plugin for FrangiblePlugin {
 
 /// Adds the parts that every engine needs.
 fn build(app: &mut App, config: &FractureConfig) {
-    app.insert_resource(Fracturing(config.clone()))
+    let mut config = config.clone();
+    if !config.threads.are_lent() {
+        config.threads = threads::lent();
+    }
+    app.insert_resource(Fracturing(config))
         .init_resource::<BreakAgain>()
         .init_resource::<DebrisBudget>()
         .init_resource::<Judges>()
