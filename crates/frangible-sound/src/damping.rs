@@ -44,7 +44,7 @@ const WANG_JAMES: &str = "Wang and James, KleinPAT, ACM TOG 38(4), 2019, Table 4
 const CREMER: &str = "order of magnitude of Cremer and Heckl, Structure-Borne Sound, Springer 1988, table of loss factors";
 const ESTIMATE: &str = "an estimate: no measurement was found";
 
-const KNOWN: [Known; 12] = [
+const KNOWN: [Known; 13] = [
     Known {
         names: &[
             "glass",
@@ -60,6 +60,11 @@ const KNOWN: [Known; 12] = [
         ],
         damping: hysteretic(1e-3),
         source: CREMER,
+    },
+    Known {
+        names: &["laminated-glass"],
+        damping: hysteretic(5e-2),
+        source: ESTIMATE,
     },
     Known {
         names: &["porcelain", "paper-piggy", "paper-rabbit"],

@@ -16,7 +16,27 @@ impl Asset {
     /// A body that is not.
     #[doc(hidden)]
     pub fn check_temper(&self) -> Result<(), InputError> {
+        self.check_laminate()?;
         self.tempered_faces().map(|_| ())
+    }
+
+    /// Checks that a body whose material is laminated is one wall that its plies fill.
+    fn check_laminate(&self) -> Result<(), InputError> {
+        let Some(laminate) = &self.material.laminate else {
+            return Ok(());
+        };
+        let wrong = |problem| InputError::Laminate {
+            asset: self.name.clone(),
+            material: self.material.name.clone(),
+            problem,
+        };
+        let (positions, surface) = (&self.fracture.positions, &self.surface.triangles);
+        let faces = WallFaces::of(positions, surface, &self.mass).map_err(|problem| {
+            wrong(format!(
+                "it is not one wall of even thickness: {problem}; give it the shape of a pane, flat or curved, or a material of one layer"
+            ))
+        })?;
+        laminate.ply_in(faces.thickness).map(|_| ()).map_err(wrong)
     }
 
     /// The faces of a body, if its material has a residual stress.
@@ -38,7 +58,10 @@ impl Breakable {
     /// This kind with its faces, if its material has a residual stress.
     pub(super) fn tempered(self) -> Result<Self, InputError> {
         Ok(Self {
-            tempered: self.asset.tempered_faces()?.map(Arc::new),
+            tempered: {
+                self.asset.check_laminate()?;
+                self.asset.tempered_faces()?.map(Arc::new)
+            },
             ..self
         })
     }
