@@ -125,6 +125,12 @@ impl Laminate {
         positive("stretch of the laminate's interlayer", self.stretch, "m")
     }
 
+    /// Distance from a crack within which the film loads a ply of this plane-strain modulus, Pa, and thickness, m, again: `√(E' h t / 2G)`, m.
+    #[must_use]
+    pub fn shear_lag(&self, modulus: f64, ply: f64) -> f64 {
+        (modulus * ply * self.interlayer / (2.0 * self.shear_modulus)).sqrt()
+    }
+
     /// Thickness of each ply of a wall of this thickness, m.
     ///
     /// # Errors

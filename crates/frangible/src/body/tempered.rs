@@ -1,4 +1,4 @@
-//! Tempered walls: bodies whose material has a residual stress, which has to go through one wall.
+//! Tempered and laminated walls: bodies whose material has a residual stress or plies, which have to go through one wall.
 //!
 //! The weak points at the faces bear that much more (`fields`), and a crack that gets below the compressed layer may end in dice (`dice`).
 
@@ -7,6 +7,7 @@ use std::sync::Arc;
 use super::{Body, Breakable};
 use crate::asset::Asset;
 use crate::error::InputError;
+use crate::material::Laminate;
 use crate::mesh::WallFaces;
 
 impl Asset {
@@ -68,6 +69,23 @@ impl Breakable {
 }
 
 impl Body {
+    /// Thickness of a laminated wall, m, and its laminate.
+    pub(crate) fn laminated_wall(&self) -> Option<(f64, &Laminate)> {
+        let laminate = self.asset.material.laminate.as_ref()?;
+        // Of a ply, with its share of the films.
+        let ply = self.prepared.thickness.iter().copied().fold(0.0, f32::max);
+        Some((f64::from(ply) * f64::from(laminate.plies), laminate))
+    }
+
+    /// Distance from a crack within which a film loads its ply again, m; infinite without a film.
+    pub(crate) fn shear_lag(&self) -> f32 {
+        let Some((wall, laminate)) = self.laminated_wall() else {
+            return f32::INFINITY;
+        };
+        let ply = laminate.ply_in(wall).unwrap_or(wall);
+        laminate.shear_lag(self.asset.material.contact_modulus(), ply) as f32
+    }
+
     /// Its faces, if a crack that reaches the tension between them leaves dice.
     pub(crate) fn dicing_wall(&self) -> Option<&Arc<WallFaces>> {
         let wall = self.tempered.as_ref()?;
