@@ -19,7 +19,7 @@ export type MeshInput = BufferGeometry | {
 };
 
 export interface BakeOptions {
-  /** Name of the material, default `'glass'`, with handling damage; `'glass-new'` and `'glass-abraded'` differ in their surface, `'tempered-glass'` falls into dice and must be a pane. Strength scatters as given by the material. */
+  /** Name of the material, default `'glass'`, with handling damage; `'glass-new'` and `'glass-abraded'` differ in their surface, `'tempered-glass'` falls into dice, `'laminated-glass'` holds together; both must be panes. Strength scatters as given by the material. */
   material?: string;
   name?: string;
   /** Length of the longest side, m. Default: the mesh is in metres. */

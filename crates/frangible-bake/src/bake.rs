@@ -25,6 +25,7 @@ use crate::eigen::lowest_supported_modes;
 use crate::error::BakeError;
 use crate::fem::Elasticity;
 use crate::followed::followed;
+use crate::laminate::Layers;
 use crate::mesh::BodyMesh;
 use crate::report::{BakeReport, MeshReport, Progress, Stage};
 use crate::shapes::{self, Shape, SolidShape};
@@ -99,12 +100,13 @@ fn baked(spec: &BakeSpec, progress: &mut dyn FnMut(Progress)) -> Result<Baked, B
         cancel: &spec.cancel,
     };
 
+    let layers = Layers::of(spec)?;
     clock.enter(Stage::Mesh)?;
     let Meshes {
         mut fine,
         coarse,
         tetrahedra,
-    } = meshes(spec, &mut |share| {
+    } = meshes(spec, layers.as_ref(), &mut |share| {
         clock.tell(Stage::Mesh, MESHING * share);
         spec.cancel.flow()
     })?;
@@ -149,13 +151,17 @@ fn baked(spec: &BakeSpec, progress: &mut dyn FnMut(Progress)) -> Result<Baked, B
     let (system, constraints) = analysis.assemble(&elasticity, &fine, &held, &holder)?;
 
     clock.enter(Stage::Modes)?;
-    let modes = lowest_supported_modes(&system, &constraints, spec.modes, &mut |share| {
+    let mut modes = lowest_supported_modes(&system, &constraints, spec.modes, &mut |share| {
         (clock.progress)(Progress {
             stage: Stage::Modes,
             fraction: share,
         });
         spec.cancel.flow()
     })?;
+
+    if let (Some(layers), Analysis::Conforming(mesh, _)) = (&layers, &analysis) {
+        layers.laminate(spec, mesh, &mut modes.eigenvalues, &mut modes.shapes)?;
+    }
 
     clock.enter(Stage::Embed)?;
     let embedding = analysis.embed(&fine)?;
@@ -173,6 +179,9 @@ fn baked(spec: &BakeSpec, progress: &mut dyn FnMut(Progress)) -> Result<Baked, B
 
     clock.enter(Stage::Walls)?;
     surface.walls = walls(&fracture.positions, &surface, &supported, crease);
+    if let Some(layers) = &layers {
+        layers.thin(&mut surface.walls);
+    }
 
     clock.enter(Stage::Stress)?;
     let basis = ModalBasis {
@@ -248,6 +257,7 @@ enum Coarse {
 
 fn meshes(
     spec: &BakeSpec,
+    layers: Option<&Layers>,
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Meshes, BakeError> {
     if let Shape::Solid(shape) = &spec.shape {
@@ -275,9 +285,9 @@ fn meshes(
     }
     if let Shape::Wall(shape) = &spec.shape {
         let wanted = || spec.shape.size_for(shape.tets as f64);
-        let fine = spec
-            .shape
-            .fracture_mesh(spec.fracture.map_or_else(wanted, Ok)?, spec.seed)?;
+        let size = spec.fracture.map_or_else(wanted, Ok)?;
+        let size = layers.map_or(size, |layers| layers.fracture(size));
+        let fine = spec.shape.fracture_mesh(size, spec.seed)?;
         let size = spec
             .analysis
             .map_or_else(|| spec.shape.analysis_size(), Ok)?;
@@ -294,6 +304,13 @@ fn meshes(
     let shape = &spec.shape;
     let analysis_size = spec.analysis.map_or_else(|| shape.analysis_size(), Ok)?;
     let fracture_size = spec.fracture.map_or_else(|| shape.fracture_size(), Ok)?;
+    let (analysis_size, fracture_size) = match layers {
+        Some(layers) => (
+            Layers::analysis(analysis_size),
+            layers.fracture(fracture_size),
+        ),
+        None => (analysis_size, fracture_size),
+    };
     Ok(Meshes {
         coarse: Coarse::Mesh(shape.analysis_mesh(analysis_size)?),
         fine: shape.fracture_mesh(fracture_size, spec.seed)?,

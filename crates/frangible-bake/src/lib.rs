@@ -49,6 +49,8 @@ mod groups;
 mod import;
 mod import_tets;
 mod import_walls;
+#[cfg(feature = "solver")]
+mod laminate;
 mod mesh;
 pub mod mode_field;
 mod phase;

@@ -14,6 +14,7 @@ mod embedding;
 mod fronts;
 mod generations;
 mod imported_tets;
+mod laminated;
 mod layers;
 mod methods;
 mod modal;

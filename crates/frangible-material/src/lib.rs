@@ -4,11 +4,13 @@
 
 mod error;
 mod fatigue;
+mod laminate;
 mod material;
 mod presets;
 mod temper;
 
 pub use error::{OutOfRange, not_negative, positive};
 pub use fatigue::Fatigue;
+pub use laminate::{Bending, Laminate};
 pub use material::Material;
 pub use presets::{Preset, UnknownMaterial};

@@ -1,6 +1,7 @@
 //! Material of a body: elasticity, damping, strength, toughness.
 
 use crate::error::{OutOfRange, not_negative, positive};
+use crate::laminate::Laminate;
 
 /// Material of a breakable body. SI units.
 ///
@@ -43,6 +44,9 @@ pub struct Material {
     /// Residual compression σ_s at the faces of a thermally tempered wall, Pa; 0 for none. Through the wall the stress is a parabola that sums
     /// to zero, with the tension σ_s/2 in the middle. A body that has one must be one wall.
     pub residual_stress: f64,
+    /// Plies and films of a laminated wall; none of one plate. The [`density`](Self::density) is that of the whole wall. A body that has plies must be
+    /// one wall.
+    pub laminate: Option<Laminate>,
 }
 
 impl Material {
@@ -82,6 +86,9 @@ impl Material {
         OutOfRange::unless(nu > -1.0 && nu < 0.5, "Poisson's ratio", nu, must)?;
         let fits = (0.0..=1.0).contains(&e);
         OutOfRange::unless(fits, "restitution", e, OutOfRange::RESTITUTION)?;
+        if let Some(laminate) = &self.laminate {
+            laminate.validate()?;
+        }
         let fits = self.middle_tension() < self.strength;
         OutOfRange::unless(fits, "residual stress", self.residual_stress, Self::TEMPER).map_err(
             |error| OutOfRange {

@@ -78,6 +78,7 @@ pub(crate) fn appearance(material: &str) -> Appearance {
         | "glass-abraded"
         | "tempered-glass"
         | "heat-strengthened-glass"
+        | "laminated-glass"
         | "slab"
         | "slab-low"
         | "slab-moderate"

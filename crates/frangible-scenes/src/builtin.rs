@@ -11,6 +11,7 @@ use frangible_mesh::did_you_mean;
 use crate::again;
 use crate::body::{BodySpec, Place};
 use crate::error::SceneError;
+use crate::laminated::{self, Blow};
 use crate::projectile::Projectile;
 use crate::scene::Scene;
 use crate::sheets;
@@ -25,7 +26,7 @@ enum Action {
 }
 
 /// Names of the built-in scenes; the first is the default.
-pub const SCENE_NAMES: [&str; 28] = [
+pub const SCENE_NAMES: [&str; 32] = [
     "glass",
     "pane",
     "plate",
@@ -51,6 +52,10 @@ pub const SCENE_NAMES: [&str; 28] = [
     "phone",
     "tiles",
     "windscreen",
+    "windscreen-web",
+    "windscreen-hole",
+    "shop-front",
+    "table-top",
     "ice-sheet",
     "side-window",
     "shower-door",
@@ -245,7 +250,11 @@ pub fn scene(name: &str) -> Result<Scene, SceneError> {
         "chandelier" => showpieces::chandelier(),
         "phone" => sheets::phone(),
         "tiles" => sheets::tiles(),
-        "windscreen" => sheets::windscreen(),
+        "windscreen" => laminated::windscreen(Blow::Stone),
+        "windscreen-web" => laminated::windscreen(Blow::Head),
+        "windscreen-hole" => laminated::windscreen(Blow::Block),
+        "shop-front" => laminated::shop_front(),
+        "table-top" => laminated::table_top(),
         "ice-sheet" => sheets::ice_sheet(),
         "side-window" => tempered::side_window(),
         "shower-door" => tempered::shower_door(),

@@ -29,6 +29,7 @@ mod files;
 mod first_break;
 mod game;
 mod hammer;
+mod laminated;
 mod launch;
 mod light;
 mod live;

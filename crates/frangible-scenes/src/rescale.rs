@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use frangible::glam::Vec3;
-use frangible::{Asset, Material};
+use frangible::{Asset, Laminate, Material};
 use frangible_bake::{RescaleError, scaled, with_material};
 
 use crate::error::SceneError;
@@ -26,6 +26,8 @@ pub struct MaterialEdit {
     pub name: Option<String>,
     /// The numbers of [`MaterialEdit::KEYS`] that are changed.
     pub numbers: [Option<f64>; 16],
+    /// The numbers of its [`Laminate`] that are changed, by [`Laminate::KEYS`], if it is to have one.
+    pub laminate: Option<[Option<f64>; 6]>,
 }
 
 impl MaterialEdit {
@@ -100,6 +102,13 @@ impl MaterialEdit {
         ];
         for (place, number) in places.into_iter().zip(self.numbers) {
             *place = number.unwrap_or(*place);
+        }
+        if let Some(given) = self.laminate {
+            let mut numbers = m.laminate.unwrap_or(Laminate::PVB).numbers();
+            for (place, number) in numbers.iter_mut().zip(given) {
+                *place = number.unwrap_or(*place);
+            }
+            m.laminate = Some(Laminate::of_numbers(numbers));
         }
         Ok(m)
     }

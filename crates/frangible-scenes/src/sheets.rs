@@ -1,4 +1,4 @@
-//! Built-in scenes of sheets that something else holds: a telephone, tiles on a wall, a windscreen, ice.
+//! Built-in scenes of sheets that something else holds: a telephone, tiles on a wall, ice.
 //!
 //! An [`Adhesive`] holds the pieces of a broken sheet; the sheet's own vibrations do not know of it, and it gives way but does not stretch.
 
@@ -131,66 +131,6 @@ pub(crate) fn tiles() -> Result<Scene, SceneError> {
         ..Scene::one_body(kind)
     };
     scene.pieces.least_mass = 2e-4;
-    Ok(scene)
-}
-
-/// A windscreen of two panes and a layer between them, hit by a stone.
-///
-/// Real laminate bends as one plate, and the film between its panes stretches and swallows energy: here each pane vibrates by itself, and the
-/// film only holds the pieces.
-pub(crate) fn windscreen() -> Result<Scene, SceneError> {
-    let shape = PaneShape {
-        size: [0.8, 0.42, 0.003],
-        corner: 0.04,
-        bow: 0.04,
-    };
-    let [width, depth, thickness] = shape.size;
-    let turn = Quat::from_rotation_x(-0.6);
-    let behind = Vec3::new(0.0, 0.35, 0.0);
-    let ahead = (thickness + 0.8e-3) as f32;
-    let glass = Material::preset("glass")?;
-    let outer = BodySpec {
-        modes: 40,
-        place: Place::Centre(behind + turn * (ahead * Vec3::Z)),
-        rotation: turn,
-        resolution: Some(60_000),
-        ..pane("outer pane", shape, glass.clone())
-    };
-    let rim = 0.012;
-    let inner = BodySpec {
-        modes: 30,
-        place: Place::Centre(behind),
-        supports: vec![
-            Support::clamped(Region::below(0, rim)),
-            Support::clamped(Region::above(0, width - rim)),
-            Support::clamped(Region::below(1, rim)),
-            Support::clamped(Region::above(1, depth - rim)),
-        ],
-        resolution: Some(12_000),
-        ..pane("inner pane", shape, glass)
-    };
-    let inner = BodySpec {
-        rotation: turn,
-        ..inner
-    };
-    let mut scene = Scene {
-        name: "windscreen".into(),
-        summary: "a windscreen of two panes bonded by a film, hit by a stone".into(),
-        bodies: vec![outer.clone(), inner],
-        adhesive: Some(Adhesive {
-            strength: 5e6,
-            patch: 0.03,
-        }),
-        look_from: Vec3::new(0.35, 0.35, 1.0),
-        duration: 1.5,
-        ..Scene::one_body(outer)
-    };
-    scene.throw(Projectile {
-        material: "stone".into(),
-        at: Vec3::new(-0.1, 0.03, 0.0),
-        toward: Vec3::new(0.0, -0.15, -1.0),
-        ..Projectile::ball(0.06, 0.0177, 20.0)
-    });
     Ok(scene)
 }
 

@@ -1,8 +1,6 @@
 //! Built-in scenes for the eye: things that everybody has seen break.
 //!
-//! The glass here is annealed; `tempered.rs` has panes of tempered glass. **Laminated glass** (windscreens) is two panes on a sheet of plastic that
-//! holds the pieces, and needs more than this model has. The scene `windscreen` has the panes, and an [`Adhesive`](crate::Adhesive) that holds the
-//! pieces. What is left out is a soft layer that dissipates, in the modes as well as between the pieces, and that tears last.
+//! The glass here is annealed; `tempered.rs` and `laminated.rs` have panes of tempered and of laminated glass.
 
 use std::f32::consts::FRAC_PI_2;
 

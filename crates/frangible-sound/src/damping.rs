@@ -46,7 +46,7 @@ const BIRCH_BANCROFT: &str =
     "Q = 150 of granite from 140 to 4500 Hz: Birch and Bancroft, Bull. Seismol. Soc. Am. 28, 1938";
 const ESTIMATE: &str = "an estimate: no measurement was found";
 
-const KNOWN: [Known; 12] = [
+const KNOWN: [Known; 13] = [
     Known {
         names: &[
             "glass",
@@ -62,6 +62,11 @@ const KNOWN: [Known; 12] = [
         ],
         damping: hysteretic(1e-3),
         source: CREMER,
+    },
+    Known {
+        names: &["laminated-glass"],
+        damping: hysteretic(5e-2),
+        source: ESTIMATE,
     },
     Known {
         names: &["porcelain", "paper-piggy", "paper-rabbit"],

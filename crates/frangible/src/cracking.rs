@@ -262,7 +262,8 @@ impl<'a> Cracking<'a> {
         };
         let mut groups = None;
         // Cracks that run at once feel neither each other nor that a piece has parted.
-        if !self.config.is_paper() {
+        // Pieces on a film do not part: they go on bearing what the wall bears.
+        if !self.config.is_paper() && self.body.asset.material.laminate.is_none() {
             let (index, mesh) = (&self.body.prepared.index, &self.body.asset.fracture);
             let progress = system.progress();
             let labels = match grown.pieces.take() {

@@ -55,6 +55,16 @@ pub enum InputError {
         /// Why the body is no wall.
         problem: String,
     },
+    /// A laminated body that is not one wall, or whose plies do not fit in it.
+    #[error("`{asset}` is of `{material}`, which is laminated, but {problem}")]
+    Laminate {
+        /// The asset's name.
+        asset: String,
+        /// The material's name.
+        material: String,
+        /// What does not fit, and how to mend it.
+        problem: String,
+    },
     /// Arrays of an asset that do not fit together.
     #[error("asset `{asset}`: {problem}; bake it again")]
     Asset {

@@ -14,7 +14,7 @@ use crate::state::BodyState;
 pub use crate::blow::BlowEnergy;
 pub use crate::contact::ContactReport;
 pub use crate::dice::Clump;
-pub use crate::fragment::Fragment;
+pub use crate::fragment::{FilmBond, Fragment};
 
 /// Outcome of an impact on a body.
 #[derive(Clone, Debug)]
@@ -61,6 +61,8 @@ pub struct Fracture {
     pub(crate) breakup: Option<Arc<Breakup>>,
     /// The dice of each piece, where the pieces are clumps of dice.
     pub(crate) clumps: Vec<Arc<Clump>>,
+    /// The films that hold the pieces of a laminated wall together.
+    pub(crate) film: Vec<FilmBond>,
 }
 
 impl Fracture {
@@ -73,7 +75,16 @@ impl Fracture {
             report,
             breakup: None,
             clumps: Vec::new(),
+            film: Vec::new(),
         }
+    }
+
+    /// The films that hold the pieces of a laminated wall together; none of other bodies. A world that follows the pieces keeps two of them together until
+    /// the film between them tears.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn film(&self) -> &[FilmBond] {
+        &self.film
     }
 
     /// The dice that a piece consists of, if it is a clump of dice. Such a piece holds by nothing but its shape, and a world that follows it may

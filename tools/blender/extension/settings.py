@@ -18,6 +18,7 @@ BRITTLE = [
     ("glass-new", "Glass, new", "With its surface as it left the factory"),
     ("glass-abraded", "Glass, worn", "Old windows, and tumblers after years of use"),
     ("tempered-glass", "Glass, tempered", "Side windows of cars and shower doors; panes only"),
+    ("laminated-glass", "Glass, laminated", "Windscreens and shop fronts; panes only"),
     ("heat-strengthened-glass", "Glass, heat-strengthened", "Facades; panes only"),
 ]
 STRIKING = [

@@ -276,7 +276,7 @@ def bake(
             ``trimesh.Trimesh``. Fragments keep the looks of a file: see ``Outcome.drawn`` and ``Body.looks``.
         faces: Array (m, 3) of vertex indices. Split or duplicate vertices, duplicate or inverted faces, and holes are repaired.
         material: Name of a material: ``glass`` (with handling damage; also ``glass-new``, ``glass-abraded``; for panes ``tempered-glass``,
-            ``heat-strengthened-glass``), ``porcelain``, ``brick``, ``concrete``, ``chocolate`` …
+            ``heat-strengthened-glass``, ``laminated-glass``), ``porcelain``, ``brick``, ``concrete``, ``chocolate`` …
         name: Name of the body.
         size: Length of the longest side, m. Default: the mesh is in metres.
         wall: Make a wall of this thickness, m, along the mesh instead of a solid body.

@@ -41,6 +41,7 @@ mod table;
 use thiserror::Error;
 
 use crate::fatigue::Fatigue;
+use crate::laminate::Laminate;
 use crate::material::Material;
 use table::PRESETS;
 
@@ -94,6 +95,7 @@ struct Numbers {
     restitution: f64,
     friction: f64,
     residual_stress: f64,
+    laminate: Option<Laminate>,
 }
 
 impl Preset {
@@ -160,6 +162,7 @@ impl Preset {
             restitution: n.restitution,
             friction: n.friction,
             residual_stress: n.residual_stress,
+            laminate: n.laminate,
         }
     }
 }

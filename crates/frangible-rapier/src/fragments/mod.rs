@@ -2,6 +2,7 @@
 
 pub(crate) mod clumps;
 pub(crate) mod debris;
+pub(crate) mod film;
 pub(crate) mod joints;
 pub(crate) mod loosen;
 pub(crate) mod pieces;

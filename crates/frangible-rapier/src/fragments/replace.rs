@@ -41,7 +41,8 @@ impl Parts {
                 shape,
                 mass,
                 centre: fragment.mass.centre.as_vec3(),
-                supported: fragment.supported,
+                // On a film nothing else holds a piece in its frame.
+                supported: fragment.supported && fracture.film().is_empty(),
             })
         };
         Ok(Self {

@@ -78,6 +78,10 @@ impl BreakableWorld {
         let now = self.time();
         for (&handle, fragment) in broken.fragments.iter().zip(&broken.fracture.fragments) {
             self.state.surfaces.insert(key(handle), surface);
+            // Splinters stay on their film.
+            if !broken.fracture.film().is_empty() {
+                continue;
+            }
             if is_debris(fragment, &self.config) {
                 self.state.debris.push_back(handle);
             }
@@ -86,7 +90,9 @@ impl BreakableWorld {
             }
         }
         self.note_clumps(body.asset(), &broken.fracture, &broken.fragments);
-        self.expect_pieces(&body, broken);
+        if broken.fracture.film().is_empty() {
+            self.expect_pieces(&body, broken);
+        }
         Some(body)
     }
 

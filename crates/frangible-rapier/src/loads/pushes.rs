@@ -268,6 +268,7 @@ impl BreakableWorld {
             fragments,
             released,
         } = self.replace(handle, &parts);
+        self.bind_film(&fracture, &fragments);
         for (i, &fragment) in fragments.iter().enumerate() {
             self.kick(fragment, piece(&fracture, i));
         }

@@ -79,6 +79,7 @@ impl BreakableWorld {
                 .rest(&mut self.physics, self.config.rest_drift);
         }
         self.part_mortar();
+        self.tear_film();
         self.limit_debris(self.config.max_debris);
         self.settle_dust();
         self.retire();

@@ -221,6 +221,16 @@ fn edit(table: MaterialTable) -> MaterialEdit {
             table.friction,
             table.residual_stress,
         ],
+        laminate: table.laminate.map(|table| {
+            [
+                table.plies,
+                table.ply,
+                table.interlayer,
+                table.shear_modulus,
+                table.strength,
+                table.stretch,
+            ]
+        }),
     }
 }
 

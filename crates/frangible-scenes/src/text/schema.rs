@@ -183,6 +183,19 @@ pub(super) struct MaterialTable {
     pub(super) restitution: Option<f64>,
     pub(super) friction: Option<f64>,
     pub(super) residual_stress: Option<f64>,
+    pub(super) laminate: Option<LaminateTable>,
+}
+
+/// Plies and films of a laminated wall; what is missing is that of PVB. The keys are the fields of `frangible::Laminate`.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct LaminateTable {
+    pub(super) plies: Option<f64>,
+    pub(super) ply: Option<f64>,
+    pub(super) interlayer: Option<f64>,
+    pub(super) shear_modulus: Option<f64>,
+    pub(super) strength: Option<f64>,
+    pub(super) stretch: Option<f64>,
 }
 
 /// A rotation: about an axis by an angle, or a unit quaternion (x, y, z, w).

@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use frangible::Material;
 use frangible::glam::Vec3;
+use frangible::{Laminate, Material};
 use frangible_bake::Shape;
 
 use crate::rescale::MaterialEdit;
@@ -48,8 +48,19 @@ pub(super) fn edit_text(edit: &MaterialEdit) -> String {
     let texts = texts.filter_map(|(key, text)| Some(format!("{key} = {}", quoted(text.as_ref()?))));
     let numbers = MaterialEdit::KEYS.iter().zip(edit.numbers);
     let numbers = numbers.filter_map(|(key, value)| Some(format!("{key} = {}", number(value?))));
-    let parts: Vec<String> = texts.chain(numbers).collect();
+    let laminate = edit.laminate.map(|given| {
+        let given = Laminate::KEYS.iter().zip(given);
+        laminate_text(given.filter_map(|(key, value)| Some((*key, value?))))
+    });
+    let parts: Vec<String> = texts.chain(numbers).chain(laminate).collect();
     format!("{{ {} }}", parts.join(", "))
+}
+
+/// A laminate's numbers as text.
+fn laminate_text<'a>(numbers: impl Iterator<Item = (&'a str, f64)>) -> String {
+    let numbers = numbers.map(|(key, value)| format!("{key} = {}", number(value)));
+    let numbers: Vec<String> = numbers.collect();
+    format!("laminate = {{ {} }}", numbers.join(", "))
 }
 
 /// The preset's name, or the preset with what differs from it.
@@ -98,6 +109,12 @@ pub(super) fn material_text(material: &Material) -> String {
         if differs(ours, theirs) || (resists && together.contains(&key)) {
             parts.push(format!("{key} = {}", number(ours)));
         }
+    }
+    if let Some(laminate) = material.laminate
+        && material.laminate != preset.laminate
+    {
+        let numbers = Laminate::KEYS.into_iter().zip(laminate.numbers());
+        parts.push(laminate_text(numbers));
     }
     format!("{{ {} }}", parts.join(", "))
 }

@@ -47,6 +47,14 @@ pub enum RescaleError {
         /// Poisson's ratio of the requested material.
         wanted: f64,
     },
+    /// The films of a laminate do not follow a change.
+    #[error(
+        "`{asset}` is laminated, or is to be: how much its plies bend as one depends on its size and its film; bake it again"
+    )]
+    Laminate {
+        /// Name of the asset.
+        asset: String,
+    },
     /// Mode shapes or stresses would underflow or overflow f32.
     #[error(
         "this change takes the mode shapes of `{asset}` out of the range of f32; change the size or the material by less"
@@ -76,6 +84,12 @@ pub fn with_material(asset: &Asset, material: &Material) -> Result<Asset, Rescal
             wanted: material.poisson_ratio,
         });
     }
+    let same = material.youngs_modulus.to_bits() == old.youngs_modulus.to_bits();
+    if material.laminate != old.laminate || (old.laminate.is_some() && !same) {
+        return Err(RescaleError::Laminate {
+            asset: asset.name.clone(),
+        });
+    }
     let stiffness = material.youngs_modulus / old.youngs_modulus;
     let density = material.density / old.density;
     let mut asset = asset.clone();
@@ -102,6 +116,11 @@ pub fn with_material(asset: &Asset, material: &Material) -> Result<Asset, Rescal
 /// The factor is not positive, or so large or small that values leave the range of f32.
 pub fn scaled(asset: &Asset, factor: f64) -> Result<Asset, RescaleError> {
     positive("the factor of the size", factor, "times").map_err(InputError::from)?;
+    if asset.material.laminate.is_some() && factor.to_bits() != 1.0_f64.to_bits() {
+        return Err(RescaleError::Laminate {
+            asset: asset.name.clone(),
+        });
+    }
     let mut asset = asset.clone();
     let scale = |v: &mut Vec3| *v = (v.as_dvec3() * factor).as_vec3();
     let fracture = Arc::make_mut(&mut asset.fracture);

@@ -69,6 +69,7 @@ pub(super) fn place(body: &Body, touch: &Touch, wall: &WallReceptance) -> Option
         point,
         inwards: inwards(&body.asset, touch.triangle, touch.weights)?,
         reach: NearField::reach(start).min(nearest_crack(body, point)),
+        in_ply: body.asset.material.laminate.is_some(),
     })
 }
 
@@ -107,6 +108,7 @@ impl SteadyNear {
             point,
             inwards,
             reach,
+            in_ply: asset.material.laminate.is_some(),
         };
         Some(Self {
             place,

@@ -134,6 +134,8 @@ fn no_more_than(numbers: &[f32; BLOCK], limits: &[f32; BLOCK]) -> u32 {
 pub(crate) struct Extents {
     /// Mean edge of the fracture mesh, m.
     edge: f32,
+    /// Largest half-length by which a crack releases, m.
+    most: f32,
     /// Speed of the waves c_R, m/s.
     wave: f64,
     /// Number of changes so far.
@@ -147,11 +149,17 @@ impl Extents {
     pub(super) fn new(edge: f32, wave: f64) -> Self {
         Self {
             edge,
+            most: f32::INFINITY,
             wave,
             changes: 0,
             list: Vec::new(),
             blocks: Vec::new(),
         }
+    }
+
+    /// With cracks that release no more than one of this half-length, m, does.
+    pub(super) fn no_longer_than(self, most: f32) -> Self {
+        Self { most, ..self }
     }
 
     /// Adds a crack that starts here.
@@ -229,10 +237,10 @@ impl Extents {
         self.list[crack].latest
     }
 
-    /// Half the length of a crack, m, no less than that of an edge.
+    /// Half the length of a crack, m, no less than that of an edge, and no more than it releases by.
     #[inline(always)]
     pub(super) fn half_length(&self, crack: usize) -> f32 {
-        0.5 * self.list[crack].chord.max(self.edge)
+        (0.5 * self.list[crack].chord.max(self.edge)).min(self.most)
     }
 
     /// Distance from its tetrahedra beyond which a crack takes nothing to speak of, m.

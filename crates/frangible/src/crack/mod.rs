@@ -9,6 +9,8 @@
 //! wall. It may branch (`branching.rs`), and may cross a crack that opens from the other face of the wall (`passing.rs`). A front that lacks energy
 //! waits and is tried at each step; an upper bound of its tension refuses most tries (`waiting.rs`).
 //!
+//! *Films* (`film.rs`). A crack in a ply of a laminated wall stops at the film, unless the next ply does not bear what it leaves.
+//!
 //! *Sections* (`sections.rs`, `section.rs`, `strip.rs`). A crack in a solid that is large against the section it lies in is also driven by the force and
 //! the moment of that section, since the stress ahead of it in the unbroken body no longer says what acts on its front.
 //!
@@ -28,6 +30,7 @@ mod extents;
 mod feed;
 mod felt;
 mod field;
+mod film;
 mod initiation;
 mod ledger;
 mod node_values;

@@ -106,7 +106,9 @@ fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
         return system.wait(front, ahead);
     }
     let felt = field.at(n, place);
-    if system.stays_refused(&front, &felt, place, field) {
+    if !system.passes_film(&front, &felt, field)
+        || system.stays_refused(&front, &felt, place, field)
+    {
         return system.wait(front, ahead);
     }
     let mut crossing = Crossing::of(system, &front);

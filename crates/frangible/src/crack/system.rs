@@ -124,7 +124,8 @@ impl<'a> CrackSystem<'a> {
             releases: Releases::default(),
             unpaid: Unpaid::default(),
             rest: Rest::default(),
-            extents: Extents::new(body.prepared.edge, asset.material.rayleigh_speed()),
+            extents: Extents::new(body.prepared.edge, asset.material.rayleigh_speed())
+                .no_longer_than(body.shear_lag()),
             centroids: &body.prepared.centroids,
             edge: body.prepared.edge,
             dices: !config.is_paper() && body.dicing_wall().is_some(),

@@ -34,6 +34,8 @@ pub(crate) struct NearPlace {
     pub(crate) inwards: Vec3,
     /// The field is zero from the table's first distance on that is no less than this, m: a crack, an edge, or nothing that matters.
     pub(crate) reach: f64,
+    /// True if it stays in the ply of a laminated wall that is touched.
+    pub(crate) in_ply: bool,
 }
 
 /// Shapes of the waves about one contact: their stress per newton over distance.
@@ -205,6 +207,10 @@ impl NearField {
         }
         // From the middle of the wall, towards the far face, in halves of the thickness.
         let [front, back] = wall.distances(point);
+        let deep = (away + 0.5 * (front + back) * wall.normal).dot(self.place.inwards);
+        if self.place.in_ply && deep > self.thickness {
+            return None;
+        }
         let height = (-(front + back) / self.thickness * side.signum()).clamp(-1.0, 1.0);
         let shrink = distance.recip();
         let radial = if shrink.is_finite() && shrink > 0.0 {

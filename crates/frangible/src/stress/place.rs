@@ -92,11 +92,15 @@ pub(crate) fn weak_place(
                 wall,
             }
         }
-        None => WeakPlace {
-            point: *asset.embedded_tet(e),
-            law: wall.map_or(Law::Solid, |wall| Law::Free(wall.normal)),
-            flaw: None,
-            wall,
-        },
+        None => {
+            let film = wall.and_then(|wall| skin.beside_film(asset, e, &wall));
+            let normal = film.map(|(_, normal)| normal);
+            WeakPlace {
+                point: *asset.embedded_tet(e),
+                law: wall.map_or(Law::Solid, |wall| Law::Free(normal.unwrap_or(wall.normal))),
+                flaw: film.map(|(place, _)| place),
+                wall,
+            }
+        }
     }
 }

@@ -129,7 +129,37 @@ impl Skin {
         (place, flaw.point.moved(gradients, place - centre))
     }
 
-    /// The wall that a fracture tetrahedron of this asset is part of, if any. Its normal is that of the tetrahedron's own
+    /// The place of a weak point beside a film, m, and the direction from its ply to the film: of a fracture tetrahedron of a laminated wall without a
+    /// face of its own. The modes see it at its middle. `ply`: its wall.
+    pub(super) fn beside_film(
+        &self,
+        asset: &Asset,
+        tet: usize,
+        ply: &Wall,
+    ) -> Option<(Vec3, Vec3)> {
+        asset.material.laminate.as_ref()?;
+        let place = asset.place(tet);
+        if self.flaw(place).is_some() {
+            return None;
+        }
+        let wall = self.walls.of_element[asset.embedding.tets[place].element as usize]?;
+        let middle = asset.root().fracture.centroid(tet);
+        // Of the faces of the ply the one deeper in the wall.
+        let depth = |up: f32| {
+            let [front, back] = wall.distances(middle + up * ply.normal);
+            front.abs().min(back.abs())
+        };
+        let [front, back] = ply.distances(middle);
+        let up = if depth(front) > depth(back) {
+            front
+        } else {
+            back
+        };
+        let across = up * ply.normal;
+        Some((middle + across, across.try_normalize()?))
+    }
+
+    /// The wall that a fracture tetrahedron of this asset is part of, if any; of a laminated wall the ply, with its share of the films. Its normal is that of the tetrahedron's own
     /// face, where that is one of the wall's.
     #[must_use]
     pub fn wall(&self, asset: &Asset, tet: usize) -> Option<Wall> {
@@ -137,10 +167,14 @@ impl Skin {
         let wall = self.walls.of_element[asset.embedding.tets[place].element as usize]?;
         let own = self.flaw(place).map(|flaw| flaw.normal);
         let along = own.filter(|n| n.dot(wall.normal).abs() > -OPPOSITE);
-        Some(along.map_or(wall, |n| Wall {
+        let wall = along.map_or(wall, |n| Wall {
             normal: n * n.dot(wall.normal).signum(),
             ..wall
-        }))
+        });
+        Some(match &asset.material.laminate {
+            Some(laminate) => wall.ply(laminate.plies, asset.root().fracture.centroid(tet)),
+            None => wall,
+        })
     }
 }
 

@@ -44,6 +44,25 @@ impl Wall {
             .map(|face| (face - p).dot(self.normal).clamp(-thickness, thickness))
     }
 
+    /// The ply that holds a point, of a wall of so many.
+    pub(crate) fn ply(&self, plies: u32, p: Vec3) -> Self {
+        let [front, back] = self.faces.map(|face| (face - p).dot(self.normal));
+        let height = (front - back) / plies as f32;
+        let last = plies.saturating_sub(1) as f32;
+        let own = (-back / height).floor().clamp(0.0, last);
+        let face = |k: f32| p + (back + k * height) * self.normal;
+        Self {
+            normal: self.normal,
+            faces: [face(own + 1.0), face(own)],
+        }
+    }
+
+    /// Returns true if a point lies between its faces, as planes.
+    pub(crate) fn holds(&self, p: Vec3) -> bool {
+        let [front, back] = self.faces.map(|face| (face - p).dot(self.normal));
+        front >= 0.0 && back <= 0.0
+    }
+
     /// Returns true if the faces of another wall lie between those of this one.
     fn is_crossed_by(&self, other: &Self) -> bool {
         let thickness = self.thickness();

@@ -68,6 +68,7 @@ impl BreakableWorld {
             fragments,
             released,
         } = self.replace(handle, &parts);
+        self.bind_film(&fracture, &fragments);
         let mut strikers = impact.strikers.clone();
         strikers.retain(|&s| self.physics.bodies.contains(s));
         // A striker that broke before has left its pieces in its place.

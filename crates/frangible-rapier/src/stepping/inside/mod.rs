@@ -88,6 +88,7 @@ impl BreakableWorld {
                     fragments,
                     released,
                 } = self.replace(broken.parent, &broken.parts);
+                self.bind_film(&broken.fracture, &fragments);
                 (broken.fragments, broken.released) = (fragments, released);
             }
             self.pass_blows(&mut asked.broken);

@@ -140,7 +140,11 @@ impl BreakableWorld {
         if !self.has_room(&fracture, taken.sum(), body) {
             return false;
         }
-        let blow = self.meetings(body, before, &impact, &fracture.report);
+        // On a film the pieces give way together, and the striker meets them as the engine has it.
+        let blow = match fracture.film().is_empty() {
+            true => self.meetings(body, before, &impact, &fracture.report),
+            false => Vec::new(),
+        };
         let met: Vec<RigidBodyHandle> = impact.partners.iter().copied().flatten().collect();
         let alone = self.are_alone(&[&[body][..], &met].concat());
         asked.broken.push(Broken {

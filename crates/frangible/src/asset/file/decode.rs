@@ -13,7 +13,7 @@ use crate::asset::{
     AnalysisMesh, Asset, ConvexCell, EmbeddedPoint, Embedding, OuterSurface, StressBounds,
     SurfaceWalls,
 };
-use crate::material::Material;
+use crate::material::{Laminate, Material};
 use crate::mesh::{MassProperties, TetMesh};
 use crate::modal::ModalBasis;
 
@@ -35,6 +35,10 @@ impl Asset {
                 residual_stress: match r.has(s::RESIDUAL_STRESS) {
                     true => r.one(s::RESIDUAL_STRESS)?,
                     false => 0.0,
+                },
+                laminate: match r.has(s::LAMINATE) {
+                    true => Some(Laminate::of_numbers(r.one(s::LAMINATE)?)),
+                    false => None,
                 },
                 ..material(r.text(s::MATERIAL_NAME)?, r.one(s::MATERIAL)?)
             },
@@ -114,6 +118,7 @@ fn material(name: &str, numbers: [f64; 15]) -> Material {
         restitution,
         friction,
         residual_stress: 0.0,
+        laminate: None,
     }
 }
 

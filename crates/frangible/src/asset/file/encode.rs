@@ -28,6 +28,9 @@ impl Asset {
         if self.material.residual_stress.to_bits() != 0 {
             w.rows(s::RESIDUAL_STRESS, &[self.material.residual_stress]);
         }
+        if let Some(laminate) = &self.material.laminate {
+            w.rows(s::LAMINATE, &[laminate.numbers()]);
+        }
         w.rows(s::POSITIONS, &self.fracture.positions);
         w.rows(s::TETS, &self.fracture.tets);
         w.rows(s::NEIGHBOURS, &self.fracture.neighbours);

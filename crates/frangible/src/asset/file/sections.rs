@@ -23,6 +23,7 @@ sections! {
     MATERIAL = 3, "material";
     MASS = 4, "mass";
     RESIDUAL_STRESS = 5, "residual stress";
+    LAMINATE = 6, "laminate";
     POSITIONS = 16, "fracture positions";
     TETS = 17, "fracture tetrahedra";
     NEIGHBOURS = 18, "fracture neighbours";
