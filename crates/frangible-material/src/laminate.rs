@@ -174,6 +174,7 @@ impl Laminate {
 impl Material {
     /// Bending of its laminate with plies of this thickness, m, at wave number k, 1/m. `is_plate`: plies cannot shrink across the bend, as in a plate;
     /// else they are those of a narrow beam. A single plate of this thickness where the material has no laminate.
+    #[doc(hidden)]
     #[must_use]
     pub fn laminate_bending(&self, ply: f64, k: f64, is_plate: bool) -> Bending {
         let Some(laminate) = &self.laminate else {

@@ -46,6 +46,7 @@ pub struct Material {
     pub residual_stress: f64,
     /// Plies and films of a laminated wall; none of one plate. The [`density`](Self::density) is that of the whole wall. A body that has plies must be
     /// one wall.
+    #[doc(hidden)]
     pub laminate: Option<Laminate>,
 }
 

@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use frangible::glam::Vec3;
-use frangible::{Asset, Laminate, Material};
+use frangible::internals::Laminate;
+use frangible::{Asset, Material};
 use frangible_bake::{RescaleError, scaled, with_material};
 
 use crate::error::SceneError;

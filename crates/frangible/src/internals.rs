@@ -118,4 +118,4 @@ pub use crate::refuse::{is_harmless, rest_margin_at_least};
 pub use crate::state::BodyState;
 pub use crate::tips::CrackFront;
 pub use crate::trace::{CrackTrace, ElementTrace};
-pub use frangible_material::{Fatigue, Preset, UnknownMaterial};
+pub use frangible_material::{Fatigue, Laminate, Preset, UnknownMaterial};

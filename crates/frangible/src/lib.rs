@@ -58,7 +58,7 @@ pub use error::InputError;
 pub use fields::{Factors, Fields};
 pub use glam;
 pub use impact::{impact, would_break};
-pub use material::{Fatigue, Laminate, Material, OutOfRange, Preset, UnknownMaterial};
+pub use material::{Fatigue, Material, OutOfRange, Preset, UnknownMaterial};
 pub use mesh::{MassProperties, RenderMesh, TriMesh};
 pub use outcome::{Fracture, Fragment, ImpactReport, Outcome};
 pub use state::BodyState;

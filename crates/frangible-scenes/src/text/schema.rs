@@ -186,7 +186,7 @@ pub(super) struct MaterialTable {
     pub(super) laminate: Option<LaminateTable>,
 }
 
-/// Plies and films of a laminated wall; what is missing is that of PVB. The keys are the fields of `frangible::Laminate`.
+/// Plies and films of a laminated wall; what is missing is that of PVB. The keys are the fields of `Laminate`.
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct LaminateTable {

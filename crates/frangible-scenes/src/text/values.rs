@@ -2,8 +2,9 @@
 
 use std::fmt::Write;
 
+use frangible::Material;
 use frangible::glam::Vec3;
-use frangible::{Laminate, Material};
+use frangible::internals::Laminate;
 use frangible_bake::Shape;
 
 use crate::rescale::MaterialEdit;
