@@ -125,3 +125,40 @@ fn a_joint_that_was_inserted_since_holds_nothing() {
     assert_eq!(undisturbed.x, 0.1, "the ball falls straight down");
     assert_eq!(end, undisturbed);
 }
+
+#[test]
+fn a_joint_that_is_changed_in_another_way_holds_as_it_is_then() {
+    let (mut world, post, [one, _]) = pendulums();
+    let joint = world.physics.insert_impulse_joint(post, one, arm(0.1));
+    steps(&mut world, 2);
+    let saved = world.save();
+    let hang_at = |world: &mut BreakableWorld, anchor: Vector, count: usize| {
+        world.restore(&saved);
+        let joint = world.physics.impulse_joints.get_mut(joint, true).unwrap();
+        joint.data.set_local_anchor1(anchor);
+        steps(world, count);
+        place(one)(world)
+    };
+    let (here, there) = (Vector::Y * 0.01, Vector::Y * -0.01);
+    let undisturbed = hang_at(&mut world, here, STEPS);
+    hang_at(&mut world, there, 1);
+    assert_eq!(hang_at(&mut world, here, STEPS), undisturbed);
+}
+
+#[test]
+fn the_settings_of_the_pipeline_stay() {
+    let (mut world, _) = shot();
+    world.physics.physics_pipeline.counters.disable();
+    #[cfg(feature = "parallel")]
+    {
+        let pipeline = &mut world.physics.physics_pipeline;
+        pipeline.configure_thread_pool(3).unwrap();
+    }
+    let saved = world.save();
+    steps(&mut world, 2);
+    world.restore(&saved);
+    let pipeline = &world.physics.physics_pipeline;
+    assert!(!pipeline.counters.enabled);
+    #[cfg(feature = "parallel")]
+    assert_eq!(pipeline.num_threads(), Some(3));
+}
