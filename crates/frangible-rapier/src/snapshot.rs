@@ -8,7 +8,8 @@ use rapier3d::pipeline::PhysicsWorld;
 
 use crate::fragments::siblings::Siblings;
 
-/// Everything a step changes. Rapier's pipelines hold only workspaces, so leaving them out still gives the same bits.
+/// Everything a step changes. Rapier's pipeline and its solver for fast bodies are left out: what they remember of earlier steps is forgotten
+/// when the state is restored.
 pub(crate) struct Snapshot {
     pub(crate) bodies: RigidBodySet,
     colliders: ColliderSet,
@@ -46,5 +47,17 @@ impl Snapshot {
         physics.multibody_joints = self.multibody_joints.clone();
         physics.soft_bodies = self.soft_bodies.clone();
         *siblings = self.siblings.clone();
+        forget_last_step(physics);
     }
+}
+
+/// Makes Rapier forget what it remembers of the step before. It keeps a list of the fixed colliders and one of the joints of bodies that are
+/// awake, and takes them up again for as long as it sees no change. Sets that are put back bring no change with them, so that these lists would
+/// name colliders and joints of another state: some that are missing, and not those that are there.
+fn forget_last_step(physics: &mut PhysicsWorld) {
+    physics.ccd_solver.invalidate_fixed_targets_cache();
+    let old = std::mem::take(&mut physics.physics_pipeline);
+    #[cfg(feature = "parallel")]
+    physics.physics_pipeline.set_thread_pool(old.thread_pool());
+    physics.physics_pipeline.counters = old.counters;
 }

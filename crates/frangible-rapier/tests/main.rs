@@ -24,6 +24,7 @@ mod pushes;
 mod refusals;
 mod rest;
 mod resting;
+mod restoring;
 mod rigid;
 mod siblings;
 mod supports;
