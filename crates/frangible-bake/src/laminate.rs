@@ -35,11 +35,8 @@ impl Layers {
         let Some(laminate) = &spec.material.laminate else {
             return Ok(None);
         };
-        let wrong = |problem: String| InputError::Laminate {
-            asset: spec.name.clone(),
-            material: spec.material.name.clone(),
-            problem,
-        };
+        let wrong =
+            |problem: String| InputError::laminate(&spec.name, &spec.material.name, &problem);
         let wall = match &spec.shape {
             Shape::Box { size } | Shape::Pane(PaneShape { size, .. }) => size[2],
             Shape::Wall(shape) => shape.wall.thickness(),
@@ -86,11 +83,7 @@ impl Layers {
         eigenvalues: &mut [f64],
         shapes: &mut [f64],
     ) -> Result<(), BakeError> {
-        let pairs = self.pairs(mesh).ok_or_else(|| InputError::Laminate {
-            asset: spec.name.clone(),
-            material: spec.material.name.clone(),
-            problem: "the mesh that carries its modes is not one layer of elements of even thickness; give it the shape of a pane".into(),
-        })?;
+        let pairs = self.pairs(mesh).ok_or_else(|| InputError::laminate(&spec.name, &spec.material.name, "the mesh that carries its modes is not one layer of elements of even thickness; give it the shape of a pane"))?;
         let material = &spec.material;
         let plate = material.contact_modulus() * self.wall.powi(3) / 12.0;
         let mass = material.density * self.wall;

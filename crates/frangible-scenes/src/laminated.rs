@@ -51,7 +51,7 @@ pub(crate) fn windscreen(blow: Blow) -> Result<Scene, SceneError> {
             "a body of 5 kg: a dented web that stays in its frame",
             Projectile {
                 material: "wood".into(),
-                ..Projectile::ball(5.0, 0.11, 7.0)
+                ..Projectile::ball(5.0, 0.11, 13.0)
             },
         ),
         Blow::Block => (

@@ -56,15 +56,8 @@ pub enum InputError {
         problem: String,
     },
     /// A laminated body that is not one wall, or whose plies do not fit in it.
-    #[error("`{asset}` is of `{material}`, which is laminated, but {problem}")]
-    Laminate {
-        /// The asset's name.
-        asset: String,
-        /// The material's name.
-        material: String,
-        /// What does not fit, and how to mend it.
-        problem: String,
-    },
+    #[error("{0}")]
+    Laminate(String),
     /// Arrays of an asset that do not fit together.
     #[error("asset `{asset}`: {problem}; bake it again")]
     Asset {
@@ -73,6 +66,17 @@ pub enum InputError {
         /// Problem with its arrays.
         problem: String,
     },
+}
+
+impl InputError {
+    /// An error about a laminated asset: its name, that of its material, and a clause that says what does not fit and how to mend it.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn laminate(asset: &str, material: &str, problem: &str) -> Self {
+        Self::Laminate(format!(
+            "`{asset}` is of `{material}`, which is laminated, but {problem}"
+        ))
+    }
 }
 
 /// Checks that a vector has neither a NaN nor an infinity in it.

@@ -12,7 +12,7 @@ use crate::contact::{self, Contact, Pulse};
 use crate::cracking::{Cracked, Cracking, Moves};
 use crate::dice::dice;
 use crate::error::InputError;
-use crate::fragment::{self, Breakup, Built, FilmBond, Fragment};
+use crate::fragment::{self, Breakup, Built};
 use crate::motion::{self, Motion};
 use crate::outcome::{Fracture, ImpactReport, LookedAt, Outcome};
 use crate::refuse;
@@ -360,7 +360,7 @@ pub(crate) fn pieces(body: &Body, cracked: Cracked<'_>) -> Outcome {
     for fragment in &mut fragments {
         fragment.mass.centre -= body.origin();
     }
-    let film = film_of(body, &fragments, |node| {
+    let film = fragment::film_of(body, &fragments, |node| {
         let label = labels.of_node[node as usize];
         let piece = traces.iter().position(|trace| trace.label == label);
         piece.map(|piece| piece as u32)
@@ -373,25 +373,6 @@ pub(crate) fn pieces(body: &Body, cracked: Cracked<'_>) -> Outcome {
         clumps: Vec::new(),
         film,
     }))
-}
-
-/// The films between the pieces of a laminated body, and those that hold them in its supports. `piece_of`: for each node.
-fn film_of(
-    body: &Body,
-    fragments: &[Fragment],
-    piece_of: impl Fn(u32) -> Option<u32>,
-) -> Vec<FilmBond> {
-    let Some((thickness, laminate)) = body.laminated_wall() else {
-        return Vec::new();
-    };
-    let mut bonds = fragment::film(laminate, fragments, thickness);
-    let asset = &body.asset;
-    let held = asset.supported.iter().filter_map(|&v| {
-        let place = asset.fracture.positions[v as usize].as_dvec3();
-        Some((piece_of(v)?, place - body.origin()))
-    });
-    bonds.extend(fragment::film_at_supports(laminate, held, thickness));
-    bonds
 }
 
 /// The outcome of a crack that lets a tempered wall go.

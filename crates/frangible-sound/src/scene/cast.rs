@@ -9,10 +9,6 @@ use glam::Vec3;
 
 /// Kind of sound source that a thing is.
 #[derive(Clone, Debug)]
-#[expect(
-    clippy::large_enum_variant,
-    reason = "one per thing in a scene, beside meshes and modes"
-)]
 pub enum Sounding {
     /// A body, or a piece with its own modes.
     Modes(Body),

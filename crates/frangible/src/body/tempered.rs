@@ -26,11 +26,8 @@ impl Asset {
         let Some(laminate) = &self.material.laminate else {
             return Ok(());
         };
-        let wrong = |problem| InputError::Laminate {
-            asset: self.name.clone(),
-            material: self.material.name.clone(),
-            problem,
-        };
+        let wrong =
+            |problem: String| InputError::laminate(&self.name, &self.material.name, &problem);
         let (positions, surface) = (&self.fracture.positions, &self.surface.triangles);
         let faces = WallFaces::of(positions, surface, &self.mass).map_err(|problem| {
             wrong(format!(

@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use glam::{DMat3, DVec3, Vec3};
 
 use super::Fragment;
+use crate::body::Body;
 use crate::material::Laminate;
 use crate::mesh::symmetric_eigen;
 
@@ -55,8 +56,27 @@ struct Seam {
     normal: DVec3,
 }
 
+/// The films between the pieces of a laminated body, and those that hold them in its supports. `piece_of`: for each node.
+pub(crate) fn film_of(
+    body: &Body,
+    fragments: &[Fragment],
+    piece_of: impl Fn(u32) -> Option<u32>,
+) -> Vec<FilmBond> {
+    let Some((thickness, laminate)) = body.laminated_wall() else {
+        return Vec::new();
+    };
+    let mut bonds = film(laminate, fragments, thickness);
+    let asset = &body.asset;
+    let held = asset.supported.iter().filter_map(|&v| {
+        let place = asset.fracture.positions[v as usize].as_dvec3();
+        Some((piece_of(v)?, place - body.origin()))
+    });
+    bonds.extend(film_at_supports(laminate, held, thickness));
+    bonds
+}
+
 /// The bonds between all pieces of a wall of this thickness, m; places are in the frame of the fragments' centres.
-pub(crate) fn film(laminate: &Laminate, fragments: &[Fragment], thickness: f64) -> Vec<FilmBond> {
+fn film(laminate: &Laminate, fragments: &[Fragment], thickness: f64) -> Vec<FilmBond> {
     let mut bonds = Vec::new();
     for (one, fragment) in (0..).zip(fragments) {
         for seam in seams(one, fragment) {
@@ -133,7 +153,7 @@ fn bonds_of(
 }
 
 /// The bonds of pieces to what holds the body: one for each stretch of held nodes. `held`: pieces and places of the nodes, m.
-pub(crate) fn film_at_supports(
+fn film_at_supports(
     laminate: &Laminate,
     held: impl Iterator<Item = (u32, DVec3)>,
     thickness: f64,

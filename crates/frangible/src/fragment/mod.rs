@@ -29,7 +29,7 @@ pub(crate) use breakup::Breakup;
 pub(crate) use build::{Built, build};
 pub(crate) use draw::draw;
 pub use film::FilmBond;
-pub(crate) use film::{film, film_at_supports};
+pub(crate) use film::film_of;
 pub use foreign::{CutEdge, interfaces_of_labels, pieces_of_cuts};
 pub(crate) use label::{Labels, label};
 pub(crate) use partition::{Point, face_parts, interfaces};

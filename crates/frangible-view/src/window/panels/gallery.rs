@@ -9,7 +9,7 @@ macro_rules! picture {
 }
 
 /// Scene and PNG; just after the break, from the pictures of the gallery.
-const PICTURES: [(&str, &[u8]); 28] = [
+const PICTURES: [(&str, &[u8]); 32] = [
     picture!("bottle"),
     picture!("bowl"),
     picture!("brick"),
@@ -29,14 +29,18 @@ const PICTURES: [(&str, &[u8]); 28] = [
     picture!("rabbit"),
     picture!("shards"),
     picture!("shelf"),
+    picture!("shop-front"),
     picture!("shower-door"),
     picture!("side-window"),
     picture!("statue"),
+    picture!("table-top"),
     picture!("tiles"),
     picture!("vase"),
     picture!("wall"),
     picture!("window"),
     picture!("windscreen"),
+    picture!("windscreen-hole"),
+    picture!("windscreen-web"),
     picture!("wine-glass"),
 ];
 
