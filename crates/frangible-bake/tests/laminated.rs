@@ -3,8 +3,9 @@
 use std::sync::{Arc, OnceLock};
 
 use frangible::glam::{DVec3, Vec3};
+use frangible::internals::Laminate;
 use frangible::{
-    Asset, Body, Breakable, Contact, FractureConfig, Laminate, Material, Outcome, Striker, impact,
+    Asset, Body, Breakable, Contact, FractureConfig, Material, Outcome, Striker, impact,
 };
 use frangible_bake::{BakeSpec, MeshSize, Region, Shape, Support, bake};
 

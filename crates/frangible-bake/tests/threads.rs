@@ -72,7 +72,7 @@ fn outcome(body: &Body, hit: &Contact, threads: Threads) -> Vec<u64> {
     bits
 }
 
-/// A ball of porcelain with the surface of its mesh.
+/// A ball of glass with the surface of its mesh.
 fn drawn() -> Body {
     let mut options = ImportOptions::default();
     options.tets = 12_000;
@@ -83,7 +83,7 @@ fn drawn() -> Body {
         ..BakeSpec::new(
             "ball",
             imported.shape,
-            Material::preset("porcelain").expect("a preset"),
+            Material::preset("glass").expect("a preset"),
         )
     };
     let asset = bake(&spec).expect("a baked ball");
@@ -95,14 +95,14 @@ fn drawn() -> Body {
 #[test]
 fn a_break_on_several_threads_is_the_same() {
     let bodies = [
-        breakable(Shape::plate(0.3, 0.3, 0.004), "glass", 20_000.0, 40).body(3),
+        breakable(Shape::plate(0.3, 0.3, 0.004), "glass", 40_000.0, 40).body(3),
         breakable(Shape::block([0.2, 0.1, 0.06]), "brick", 20_000.0, 20).body(3),
         drawn(),
     ];
     let steel = Material::preset("steel").expect("a preset");
-    let mut broke = 0;
+    let (mut broke, mut tasks) = (0, 0);
     for body in &bodies {
-        for speed in [0.5, 3.0, 20.0] {
+        for speed in [0.5, 3.0, 100.0] {
             let ball = Striker::ball(&steel, 0.25, 0.02);
             let point = Vec3::new(0.01, 0.02, 1.0);
             let hit = Contact::collision(body.asset(), point, Vec3::NEG_Z, speed, ball);
@@ -115,9 +115,9 @@ fn a_break_on_several_threads_is_the_same() {
                 });
                 let many = outcome(body, &hit, Threads::of(pool.clone()));
                 assert!(one == many, "{count} threads, {speed} m/s");
-                assert!(one.len() <= 1000 || pool.tasks.load(Ordering::Relaxed) > 0);
+                tasks += pool.tasks.load(Ordering::Relaxed);
             }
         }
     }
-    assert!(broke >= 4, "{broke}");
+    assert!(broke >= 4 && tasks > 50, "{broke} {tasks}");
 }

@@ -181,7 +181,7 @@ fn sum(mut a: Lanes, b: &Lanes) -> Lanes {
 }
 
 /// Least number of points in a part of the body that is looked at by itself.
-const LEAST_PART: usize = 512;
+const LEAST_PART: usize = 2048;
 
 /// Parts per thread: the longest of them ends soon after the others.
 const PARTS: usize = 3;

@@ -11,6 +11,10 @@ use crate::crack::{Crack, CrackSystem};
 use crate::fragment::Fragment;
 use crate::mesh::{Division, Parts, Threads};
 
+/// Triangles of all fragments from which on they are finished on several threads. Below it, waking the threads and memory that one thread makes and another
+/// one frees take as long as is gained.
+const WORTH_THREADS: usize = 100_000;
+
 /// Fragments, and the data about them that later steps need.
 pub(crate) struct Built {
     /// Largest first.
@@ -48,6 +52,12 @@ pub(crate) fn build_cracked(
     let faces: Vec<_> = match parts {
         Some(_) => drafts.iter().map(|draft| draft.inner.clone()).collect(),
         None => Vec::new(),
+    };
+    let triangles = |draft: &Draft| draft.outer.len() + draft.inner.len();
+    let alone = Threads::default();
+    let threads = match drafts.iter().map(triangles).sum::<usize>() {
+        few if few < WORTH_THREADS => &alone,
+        _ => threads,
     };
     let numbered: Vec<(u32, Draft)> = (0..).zip(drafts).collect();
     let finisher = || Finisher::new(&table, asset.material.density);
