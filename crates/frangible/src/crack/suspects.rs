@@ -209,6 +209,7 @@ struct Part<'a> {
 }
 
 /// Point that a look has found.
+#[expect(clippy::large_enum_variant, reason = "few rows do not hold")]
 enum Found {
     /// It may pass its strength, or the peak, at these steps.
     Suspect(Suspect, Steps),
