@@ -250,7 +250,7 @@ fn each_moment_of_four_scenes_made_at_random_fills_its_picture_but_for_known_one
     let bad: Vec<String> = (1..=4)
         .flat_map(|n| badly_framed(any_scene(n), 20))
         .collect();
-    assert_eq!(bad, ["any 1, just after", "any 3, at the end"]);
+    assert_eq!(bad, ["any 3, at the end"]);
 }
 
 #[test]

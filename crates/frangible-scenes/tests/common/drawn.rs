@@ -32,7 +32,8 @@ struct Thing {
 #[derive(Clone, Debug)]
 pub(crate) struct Lie {
     name: String,
-    bound: f64,
+    /// Largest of the lengths below that counts as nothing, m.
+    pub(crate) bound: f64,
     /// Greatest depth of its vertices in the floor, m.
     pub(crate) in_floor: f64,
     /// Greatest depth of its vertices in another thing, m, and the thing.
