@@ -126,7 +126,7 @@ fn a_joint_that_was_inserted_since_holds_nothing() {
     assert_eq!(end, undisturbed);
 }
 
-/// Where a ball is whose joint is moved to these places in turn, each time in the state from before.
+/// Position of a ball after its joint was moved to each of these places, every time from the same restored state.
 fn end_at_the_last_of(anchors: &[Vector]) -> Vector {
     let (mut world, post, [one, _]) = pendulums();
     let joint = world.physics.insert_impulse_joint(post, one, arm(0.1));

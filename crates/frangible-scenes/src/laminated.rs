@@ -10,14 +10,14 @@ use crate::projectile::Projectile;
 use crate::scene::Scene;
 use crate::source::BodySource;
 
-/// What hits the windscreen.
+/// Striker of a windscreen.
 #[derive(Clone, Copy)]
 pub(crate) enum Blow {
     /// A stone from the road.
     Stone,
     /// A soft, heavy body, about as heavy as a head.
     Head,
-    /// The same mass, hard, small and fast.
+    /// A small, fast steel ball of the same mass.
     Block,
 }
 

@@ -1,4 +1,4 @@
-//! What lands: dice of tempered glass and small shards, by what they weigh and how fast they are.
+//! Sound of landing dice of tempered glass and small shards, by their mass and speed.
 
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};

@@ -1,4 +1,4 @@
-//! How long materials and shards ring, beside published loss factors.
+//! Decay times of materials and shards, beside published loss factors.
 
 use std::f64::consts::{LN_10, SQRT_2, TAU};
 

@@ -73,5 +73,6 @@ pub(crate) use apart::Apart;
 pub use course::Blow;
 pub(crate) use groups::Groups;
 pub(crate) use limits::Limits;
+pub(crate) use parted::outer;
 pub(crate) use spring::Spring;
 pub(crate) use wall::{SteadyNear, has_near_field};

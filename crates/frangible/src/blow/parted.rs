@@ -305,6 +305,6 @@ pub(super) fn wrench(direction: DVec3, arm: DVec3) -> [f64; SIX] {
 }
 
 /// d dᵀ.
-pub(super) fn outer(d: DVec3) -> DMat3 {
+pub(crate) fn outer(d: DVec3) -> DMat3 {
     DMat3::from_cols(d * d.x, d * d.y, d * d.z)
 }

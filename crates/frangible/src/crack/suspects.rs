@@ -62,8 +62,10 @@ impl Suspects {
         let threads = &field.config.threads;
         let count = |(cluster, _): &(u32, Steps)| tets(*cluster).len();
         let points: usize = survivors.iter().map(count).sum();
-        let parts = (points / LEAST_PART).min(PARTS * threads.count());
-        let parts = if threads.count() > 1 { parts.max(1) } else { 1 };
+        let parts = match threads.count() {
+            1 => 1,
+            threads => (points / LEAST_PART).clamp(1, PARTS * threads),
+        };
         let mut stress = std::mem::take(&mut self.stress);
         stress.begin(body, field, parts);
         let mut rest = (&survivors[..], &mut stress.added[..], 0, points);

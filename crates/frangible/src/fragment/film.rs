@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use glam::{DMat3, DVec3, Vec3};
 
 use super::Fragment;
+use crate::blow::outer;
 use crate::body::Body;
 use crate::material::Laminate;
 use crate::mesh::symmetric_eigen;
@@ -42,7 +43,7 @@ pub struct FilmBond {
 }
 
 impl FilmBond {
-    /// What holds the body, in the place of a second piece.
+    /// Number that stands for the body's supports in the place of a second piece.
     pub const FRAME: u32 = u32::MAX;
 }
 
@@ -112,8 +113,7 @@ fn seams(one: u32, fragment: &Fragment) -> Vec<Seam> {
         let seam = &mut seams[at];
         seam.area += area;
         seam.first += area * middle;
-        seam.second +=
-            DMat3::from_cols(middle * middle.x, middle * middle.y, middle * middle.z) * area;
+        seam.second += outer(middle) * area;
         seam.normal += normal;
     }
     seams
@@ -126,8 +126,7 @@ fn bonds_of(
     thickness: f64,
 ) -> impl Iterator<Item = FilmBond> {
     let middle = seam.first / seam.area;
-    let spread = seam.second * (1.0 / seam.area)
-        - DMat3::from_cols(middle * middle.x, middle * middle.y, middle * middle.z);
+    let spread = seam.second * (1.0 / seam.area) - outer(middle);
     let (moments, directions) = symmetric_eigen(spread);
     let largest = (0..3).max_by(|&a, &b| moments[a].total_cmp(&moments[b]));
     let length = seam.area / thickness;
@@ -168,7 +167,7 @@ fn film_at_supports(
             other: FilmBond::FRAME,
             area: seam.area + 1.0,
             first: seam.first + p,
-            second: seam.second + DMat3::from_cols(p * p.x, p * p.y, p * p.z),
+            second: seam.second + outer(p),
             ..seam
         });
         let [mut low, mut high] = [places[0]; 2];
