@@ -2,6 +2,7 @@
 //!
 //! - [`TetMesh`]: linear tetrahedra with their neighbours; [`TriMesh`]: the closed surface of a piece; [`RenderMesh`]: its render mesh;
 //! - [`RenderSurface`]: the authored surface, and [`RenderIndex`], which divides it among the pieces;
+//! - [`FineFaces`]: crack faces finer than the mesh, for pictures;
 //! - [`TriangleTree`]: the closest point of a surface; [`AlongSurface`]: distances along one; [`MassProperties`]: mass, centre and inertia;
 //! - [`symmetric_eigen`]: principal values and axes of a stress or an inertia;
 //! - [`merged_parts`], [`ConvexHull`], [`thinned`], [`bounds`] and [`box_of`]: fewer and simpler convex parts for colliders;
@@ -22,6 +23,7 @@ mod convex;
 mod disjoint;
 mod drawn;
 mod eigen;
+mod fine;
 mod footing;
 mod hull;
 mod mass;
@@ -47,6 +49,7 @@ pub use drawn::{
     RenderIndex, RenderMaterial, RenderSurface, Texture, TextureSlot, Wrap, linear_color,
 };
 pub use eigen::symmetric_eigen;
+pub use fine::FineFaces;
 pub use footing::{Corner, footing};
 pub use glam;
 pub use hull::{ConvexHull, hulls_of_parts};

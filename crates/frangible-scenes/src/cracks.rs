@@ -217,6 +217,7 @@ mod tests {
             authored: Vec::new(),
             srgb_colors: false,
             light: None,
+            fine: None,
             names: [String::new(), String::new()],
         };
         add_cracks(&mut mesh, &[[a, b, c], [a, c, d]], &surfaces);

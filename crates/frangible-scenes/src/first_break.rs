@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use frangible::glam::{Quat, Vec3};
+use frangible::glam::{DVec3, Quat, Vec3};
 use frangible::{Body, Contact, FractureConfig, Fragment};
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_rapier::{BreakCause, BreakEvent};
@@ -183,7 +183,7 @@ impl FirstBreak {
         }
         for (i, fragment) in pieces.iter().enumerate() {
             let name = format!("{} piece {}", self.name, i + 1);
-            let mesh = piece(&name, fragment, &self.look).mesh;
+            let mesh = piece(&name, fragment, DVec3::ZERO, &self.look).mesh;
             self.put(
                 &mut still,
                 mesh,

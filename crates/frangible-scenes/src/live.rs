@@ -10,7 +10,7 @@ mod throw;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use frangible::glam::{Quat, Vec3};
+use frangible::glam::{DVec3, Quat, Vec3};
 use frangible::{Body, Breakable, Fracture, Fragment};
 use frangible_rapier::rapier3d::dynamics::RigidBodyHandle;
 use frangible_rapier::{BreakEvent, BreakableWorld};
@@ -20,7 +20,7 @@ use frangible_sound::Sounding;
 use crate::bake::BakedBody;
 use crate::cracks::with_cracks;
 use crate::error::SceneError;
-use crate::meshes::{BodySurfaces, piece};
+use crate::meshes::{BodySurfaces, origin, piece};
 use crate::recorder::{Role, piece_sounding};
 use crate::run::resist_rolling;
 use crate::scene::Scene;
@@ -237,7 +237,7 @@ impl LiveScene {
             .enumerate()
         {
             let name = format!("{} piece {}", of.name, i + 1);
-            let mesh = piece(&name, fragment, surfaces).mesh;
+            let mesh = piece(&name, fragment, origin(&event.asset), surfaces).mesh;
             self.things.push(Arc::new(Thing {
                 name,
                 kind: ThingKind::Piece {
@@ -285,7 +285,7 @@ impl LiveScene {
             return Vec::new();
         };
         let shape = |fragment: &Fragment| {
-            let mesh = piece("", fragment, surfaces).mesh;
+            let mesh = piece("", fragment, DVec3::ZERO, surfaces).mesh;
             (fragment.mass.centre.as_vec3(), mesh)
         };
         fracture.fragments.iter().map(shape).collect()

@@ -3,9 +3,9 @@
 use std::borrow::Cow;
 use std::collections::HashMap;
 
-use frangible::glam::Vec3;
+use frangible::glam::{DVec3, Vec3};
 use frangible::internals::asset::{RenderSurface, linear_color};
-use frangible::internals::{RenderMesh, box_projection};
+use frangible::internals::{FineFaces, RenderMesh, box_projection};
 use frangible::{Asset, Fragment, TriMesh};
 use frangible_recording::{MeshPart, RecordedMesh};
 
@@ -31,6 +31,8 @@ pub(crate) struct BodySurfaces {
     pub(crate) srgb_colors: bool,
     /// Largest distance of simplified crack faces from the computed ones, m; none: they are drawn as computed.
     pub(crate) light: Option<f32>,
+    /// Detail of crack faces below the resolution of the mesh; none: they are drawn as computed.
+    pub(crate) fine: Option<FineFaces>,
     /// Name of the body, and the name of its mesh in the file that it came from, which may be empty.
     pub(crate) names: [String; 2],
 }
@@ -136,6 +138,11 @@ pub(crate) fn whole(node: &str, asset: &Asset, surfaces: &BodySurfaces) -> Recor
     builder.finish(name, vec![(surfaces.outer, indices)])
 }
 
+/// Origin of the frame of a body in that of the unbroken body, m: zero except for pieces.
+pub(crate) fn origin(asset: &Asset) -> DVec3 {
+    asset.portion().map_or(DVec3::ZERO, |p| p.origin())
+}
+
 /// A piece as it is drawn.
 pub(crate) struct DrawnPiece {
     pub(crate) mesh: RecordedMesh,
@@ -144,7 +151,14 @@ pub(crate) struct DrawnPiece {
 }
 
 /// A piece: outside, crack faces, and cracks that entered it without parting it; these are left out of a light drawing.
-pub(crate) fn piece(node: &str, fragment: &Fragment, surfaces: &BodySurfaces) -> DrawnPiece {
+///
+/// `parent`: the [`origin`] of what broke.
+pub(crate) fn piece(
+    node: &str,
+    fragment: &Fragment,
+    parent: DVec3,
+    surfaces: &BodySurfaces,
+) -> DrawnPiece {
     let origin = fragment.mass.centre.as_vec3();
     let mut drawn = match &fragment.render {
         Some(render) => Cow::Borrowed(render),
@@ -162,6 +176,10 @@ pub(crate) fn piece(node: &str, fragment: &Fragment, surfaces: &BodySurfaces) ->
             share: error / tolerance * TOLERANCE,
         };
         drawn = Cow::Owned(light);
+    }
+    if let Some(fine) = &surfaces.fine {
+        let origin = (parent + fragment.mass.centre).as_vec3();
+        drawn = Cow::Owned(fine.of(&drawn, origin));
     }
     let mut builder = Builder {
         mesh: vertices(&drawn),

@@ -28,7 +28,13 @@ pub enum Drawing {
     /// Crack faces with fewer triangles, at most [`TOLERANCE`] of the body's longest side away from the computed ones; so are surfaces that no one
     /// drew. Cracks that end inside a body are left out.
     Light,
+    /// Crack faces finer than computed: edges at most a quarter of the mesh's mean edge, with the roughness of the material. Those of materials
+    /// without roughness stay as computed.
+    Fine,
 }
+
+/// Longest edge of fine crack faces, as a share of the mean edge of the mesh that the cracks ran through.
+pub(crate) const FINE_EDGE: f32 = 0.25;
 
 /// Largest distance of simplified crack faces from the computed ones, of the longest side of the body.
 pub const TOLERANCE: f32 = 0.005;

@@ -17,7 +17,7 @@ use frangible_sound::{Sounding, recorded_blow};
 
 use crate::cameras::cameras;
 use crate::cracks::with_cracks;
-use crate::meshes::{BodySurfaces, DrawnPiece, piece};
+use crate::meshes::{BodySurfaces, DrawnPiece, origin, piece};
 use crate::output::{Simplified, WANTED_OF_DRAWN};
 use crate::touching::WorldTouching;
 
@@ -169,7 +169,8 @@ impl Recorder {
             .enumerate()
         {
             let name = piece_name(name, generation, i);
-            let DrawnPiece { mesh, simplified } = piece(&name, fragment, surfaces);
+            let DrawnPiece { mesh, simplified } =
+                piece(&name, fragment, origin(&event.asset), surfaces);
             self.simplified.add(&simplified);
             let extras = vec![
                 ("mass_kg".into(), fragment.mass.mass),

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use frangible::glam::{Quat, Vec3};
+use frangible::internals::FineFaces;
 use frangible::{Asset, Body, Breakable, Material};
 use frangible_bake::weakness;
 use frangible_rapier::rapier3d::dynamics::{RigidBodyBuilder, RigidBodyHandle};
@@ -19,7 +20,7 @@ use crate::bonds::bond;
 use crate::error::SceneError;
 use crate::launch::{Launched, Target, launch, vector};
 use crate::meshes::{BodySurfaces, whole};
-use crate::output::{Drawing, TOLERANCE};
+use crate::output::{Drawing, FINE_EDGE, TOLERANCE};
 use crate::overlap::check_overlaps;
 use crate::projectile::Projectile;
 use crate::recorder::{Recorder, Role};
@@ -278,6 +279,7 @@ fn put<'a>(
             .collect(),
         srgb_colors: asset.render().is_some_and(|r| r.srgb_colors),
         light: (drawing == Drawing::Light).then(|| TOLERANCE * longest_side(asset)),
+        fine: (drawing == Drawing::Fine).then(|| fine_faces(asset)),
         names: [
             spec.name.clone(),
             asset.render().map_or("", |r| &r.name).to_owned(),
@@ -361,6 +363,17 @@ fn farthest_point(asset: &Asset) -> f32 {
         .iter()
         .map(|p| p.length())
         .fold(0.0, f32::max)
+}
+
+/// Detail of fine crack faces.
+fn fine_faces(asset: &Asset) -> FineFaces {
+    let (mesh_edge, material) = (asset.fracture().mean_edge(), asset.material());
+    FineFaces {
+        edge: FINE_EDGE * mesh_edge,
+        mesh_edge,
+        amplitude: material.roughness_amplitude as f32,
+        wavelength: material.roughness_wavelength as f32,
+    }
 }
 
 /// Longest side of the body's box, m.

@@ -111,7 +111,9 @@ pub use crate::fields::{Factors, Fields};
 pub use crate::fragment::{CutEdge, interfaces_of_labels, pieces_of_cuts};
 pub use crate::impact::{Drive, Stage, Vibration, impact_traced};
 pub use crate::loads::{Blast, Force, LoadClock, blast, follow, follow_traced, fracture_at, rest};
-pub use crate::mesh::{MassProperties, Pool, RenderMesh, TetMesh, Threads, box_projection};
+pub use crate::mesh::{
+    FineFaces, MassProperties, Pool, RenderMesh, TetMesh, Threads, box_projection,
+};
 pub use crate::outcome::{LookedAt, StageTimings};
 pub use crate::piece::{Elastic, PieceModel, Portion};
 pub use crate::refuse::{is_harmless, rest_margin_at_least};

@@ -291,8 +291,9 @@ pub(crate) struct BreakArgs {
     pub(crate) contact_sheet: Option<i64>,
 
     /// Detail of the drawn pieces: crack faces as computed and cracks that end inside the body (full), or crack faces with fewer triangles, at most
-    /// 0.5 % of the body's longest side away, and a GLB with vertices of 16 bits (light) [default: the scene's own, or full]
-    #[arg(long, value_name = "full|light", hide_possible_values = true)]
+    /// 0.5 % of the body's longest side away, and a GLB with vertices of 16 bits (light), or crack faces four times as fine as computed, with the
+    /// roughness of the material (fine) [default: the scene's own, or full]
+    #[arg(long, value_name = "full|light|fine", hide_possible_values = true)]
     pub(crate) drawing: Option<DrawingArg>,
 
     /// Print the report as JSON instead of a table
@@ -339,6 +340,7 @@ impl From<LevelArg> for frangible_sound::Level {
 pub(crate) enum DrawingArg {
     Full,
     Light,
+    Fine,
 }
 
 impl From<DrawingArg> for frangible_scenes::Drawing {
@@ -346,6 +348,7 @@ impl From<DrawingArg> for frangible_scenes::Drawing {
         match drawing {
             DrawingArg::Full => Self::Full,
             DrawingArg::Light => Self::Light,
+            DrawingArg::Fine => Self::Fine,
         }
     }
 }

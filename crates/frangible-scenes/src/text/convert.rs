@@ -165,6 +165,7 @@ fn output(table: OutputTable) -> Output {
     set(&mut output.seeds, table.seeds);
     output.drawing = match table.drawing {
         Some(DrawingName::Light) => Drawing::Light,
+        Some(DrawingName::Fine) => Drawing::Fine,
         Some(DrawingName::Full) | None => Drawing::Full,
     };
     output

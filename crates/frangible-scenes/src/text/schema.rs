@@ -315,4 +315,5 @@ pub(super) struct OutputTable {
 pub(super) enum DrawingName {
     Full,
     Light,
+    Fine,
 }

@@ -299,7 +299,9 @@ fn write_output(t: &mut Text, output: &Output) {
         }
     }
     t.line("seeds", output.seeds);
-    if output.drawing == Drawing::Light {
-        t.line("drawing", quoted("light"));
+    match output.drawing {
+        Drawing::Full => {}
+        Drawing::Light => t.line("drawing", quoted("light")),
+        Drawing::Fine => t.line("drawing", quoted("fine")),
     }
 }
