@@ -24,6 +24,7 @@ mod drawn;
 mod eigen;
 mod footing;
 mod hull;
+mod hulls;
 mod mass;
 #[cfg(test)]
 mod random;
@@ -49,7 +50,8 @@ pub use drawn::{
 pub use eigen::symmetric_eigen;
 pub use footing::{Corner, footing};
 pub use glam;
-pub use hull::{ConvexHull, hulls_of_parts};
+pub use hull::ConvexHull;
+pub use hulls::hulls_of_parts;
 pub use mass::MassProperties;
 pub use render::{RenderMesh, box_projection};
 pub use rows::Rows;

@@ -4,6 +4,7 @@
 //! body needs no term: a force spread as the mass is lies in the span of its rigid motions, to which all modes are
 //! orthogonal. A held body hangs from its supports, and its weight bends it.
 
+use frangible_material::OutOfRange;
 use glam::Vec3;
 
 use crate::asset::each_row;
@@ -38,7 +39,7 @@ const DIAGONALS: f64 = 3.0;
 /// [`FractureConfig::load_duration`].
 ///
 /// # Errors
-/// A force, point or gravity that is not finite; the errors of [`FractureConfig::validate`].
+/// A force, point or gravity that is not finite, or whose stress is none; the errors of [`FractureConfig::validate`].
 pub fn rest(
     body: &Body,
     forces: &[Force],
@@ -112,6 +113,12 @@ pub fn rest(
     report.peak_strain_energy = energy
         .map(|(&q, l)| 0.5 * l * f64::from(q) * f64::from(q))
         .sum();
+    OutOfRange::unless(
+        report.peak_strain_energy.is_finite(),
+        "the elastic energy of static forces and gravity (J)",
+        report.peak_strain_energy,
+        "a finite number; give smaller forces or less gravity",
+    )?;
     let (time_step, steps) = steps(body, config);
     report.time_step = time_step;
     report.time_steps = steps;
