@@ -16,7 +16,7 @@ const TOLERANCE: f32 = 3e-3;
 #[must_use]
 pub fn hulls_of_body(asset: &Asset) -> Vec<Vec<f32>> {
     let cells = asset.cells().iter().map(|cell| &cell.points[..]);
-    hulls(cells.collect(), asset.surface_positions())
+    hulls(cells.collect(), asset.surface_positions(), &[])
 }
 
 /// Convex parts of a fragment, points in its own frame, m.
@@ -24,14 +24,15 @@ pub fn hulls_of_body(asset: &Asset) -> Vec<Vec<f32>> {
 pub fn hulls_of_fragment(fragment: &Fragment) -> Vec<Vec<f32>> {
     let shares = fragment.cell_shares.iter();
     let parts = shares.map(|(_, points)| &points[..]).collect();
-    hulls(parts, &fragment.mesh.positions)
+    let drawn = (fragment.render.as_ref()).map_or(&[][..], |drawn| &drawn.positions);
+    hulls(parts, &fragment.mesh.positions, drawn)
 }
 
-fn hulls(parts: Vec<&[Vec3]>, solid: &[Vec3]) -> Vec<Vec<f32>> {
+fn hulls(parts: Vec<&[Vec3]>, solid: &[Vec3], drawn: &[Vec3]) -> Vec<Vec<f32>> {
     let (low, high) = bounds(solid);
     let within = TOLERANCE * (high - low).max_element();
     let [parts_at_most, points] = PARTS;
-    let mut hulls = hulls_of_parts(merged_parts(parts, parts_at_most), points, within);
+    let mut hulls = hulls_of_parts(merged_parts(parts, parts_at_most), drawn, points, within);
     if hulls.is_empty() {
         hulls.extend(ConvexHull::new(solid, points, within));
     }

@@ -50,7 +50,7 @@ const LEAST_EXTENT: f32 = 4e-4;
 pub(super) fn whole(baked: &Baked, (parts, points): (usize, usize)) -> Collider {
     let cells = baked.cells().iter().map(|cell| &cell.points[..]).collect();
     let solid = baked.surface_positions();
-    compound(cells, parts, points, within(solid)).unwrap_or_else(|| bounding_box(solid))
+    compound(cells, &[], [parts, points], within(solid)).unwrap_or_else(|| bounding_box(solid))
 }
 
 /// The collider of a fragment: one hull, the hulls of its shares of the cells, or a box. One that is held has its own surface: the rest of a pane in
@@ -63,14 +63,17 @@ pub(super) fn of_fragment(fragment: &Fragment, detail: &ColliderDetail) -> Colli
     }
     let (parts, points) = detail.fragment;
     let solid = &fragment.mesh.positions;
-    let one = ConvexHull::new(solid, points.max(4), within(solid));
+    let drawn = (fragment.render.as_ref()).map_or(&[][..], |drawn| &drawn.positions);
+    // A round piece needs more corners than a part of it would.
+    let corners = points.max(4).saturating_mul(parts.max(1));
+    let one = hulls_of_parts(vec![solid.clone()], drawn, corners, within(solid)).pop();
     let is_convex =
         |hull: &ConvexHull| hull.volume() <= detail.hull_volume_ratio * fragment.mass.volume;
     if let Some(one) = one.as_ref().filter(|one| is_convex(one)).and_then(collider) {
         return one;
     }
     let shares = fragment.cell_shares.iter().map(|(_, points)| &points[..]);
-    compound(shares.collect(), parts, points, within(solid))
+    compound(shares.collect(), drawn, [parts, points], within(solid))
         .or_else(|| collider(one.as_ref()?))
         .unwrap_or_else(|| bounding_box(solid))
 }
@@ -96,11 +99,11 @@ fn collider(hull: &ConvexHull) -> Option<Collider> {
 
 fn compound(
     parts: Vec<&[glam::Vec3]>,
-    most: usize,
-    points: usize,
+    drawn: &[glam::Vec3],
+    [most, points]: [usize; 2],
     within: f32,
 ) -> Option<Collider> {
-    let hulls = hulls_of_parts(merged_parts(parts, most), points.max(4), within);
+    let hulls = hulls_of_parts(merged_parts(parts, most), drawn, points.max(4), within);
     let mut hulls: Vec<Collider> = hulls.iter().filter_map(collider).collect();
     match hulls.len() {
         0 | 1 => hulls.pop(),

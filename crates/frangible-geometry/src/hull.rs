@@ -94,38 +94,6 @@ impl ConvexHull {
     }
 }
 
-/// Volume below which a hull is none, m³: contacts of flat hulls have random normals.
-const LEAST_VOLUME: f64 = 1e-15;
-
-/// Hulls of convex parts, each as [`ConvexHull::new`] makes it. The points of a part without a volume go to its nearest neighbour, so that no corner is
-/// left without a hull.
-#[must_use]
-pub fn hulls_of_parts(parts: Vec<Vec<Vec3>>, most: usize, within: f32) -> Vec<ConvexHull> {
-    let hull = |points: &[Vec3]| {
-        ConvexHull::new(points, most, within).filter(|hull| hull.volume() > LEAST_VOLUME)
-    };
-    let (mut all, mut flat) = (Vec::with_capacity(parts.len()), Vec::new());
-    for points in parts {
-        match hull(&points) {
-            Some(hull) => all.push((points, hull)),
-            None => flat.push(points),
-        }
-    }
-    let middle = |points: &[Vec3]| points.iter().sum::<Vec3>() / points.len().max(1) as f32;
-    for points in flat {
-        let at = middle(&points);
-        let away = |part: &(Vec<Vec3>, ConvexHull)| middle(&part.0).distance_squared(at);
-        let nearest = all.iter_mut().min_by(|a, b| away(a).total_cmp(&away(b)));
-        if let Some((part, grown)) = nearest {
-            part.extend(points);
-            if let Some(hull) = hull(part) {
-                *grown = hull;
-            }
-        }
-    }
-    all.into_iter().map(|(_, hull)| hull).collect()
-}
-
 /// A hull that grows.
 struct Hull {
     points: Vec<DVec3>,

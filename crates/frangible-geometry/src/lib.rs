@@ -26,6 +26,7 @@ mod eigen;
 mod fine;
 mod footing;
 mod hull;
+mod hulls;
 mod mass;
 #[cfg(test)]
 mod random;
@@ -52,7 +53,8 @@ pub use eigen::symmetric_eigen;
 pub use fine::FineFaces;
 pub use footing::{Corner, footing};
 pub use glam;
-pub use hull::{ConvexHull, hulls_of_parts};
+pub use hull::ConvexHull;
+pub use hulls::hulls_of_parts;
 pub use mass::MassProperties;
 pub use render::{RenderMesh, box_projection};
 pub use rows::Rows;

@@ -35,7 +35,8 @@ pub struct ColliderDetail {
     /// Largest number of convex parts, 1 or more: neighbouring cells are merged down to this number. 1 gives the convex hull.
     pub parts: usize,
     /// Largest number of points of each part, 4 or more. A part of a fragment has fewer where fewer suffice: its hull follows what is drawn to
-    /// 0.3 % of the fragment's longest side, or of [`WorldConfig::length_unit`] if that is longer.
+    /// 0.3 % of the fragment's longest side, or of [`WorldConfig::length_unit`] if that is longer. A fragment that is a single hull may have as many as
+    /// all parts together.
     pub hull_points: usize,
 }
 

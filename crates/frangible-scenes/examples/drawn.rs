@@ -1,5 +1,5 @@
-//! Measures where pieces lie at the end of scenes, as they are drawn: `drawn SCENE …`, all built-in scenes, or with `drawn made SEEDS` bodies of so many
-//! seeds. A measuring tool.
+//! Measures where pieces lie at the end of scenes, as they are drawn: `drawn SCENE …`, all built-in scenes, or with `drawn made SEEDS [FIRST]` bodies of so
+//! many seeds, from the first on. A measuring tool.
 //!
 //! A piece is off if a vertex lies deeper in the floor or in another piece, or if all of it is farther from both, than 0.5 % of its body's longest
 //! side or 0.5 mm, whichever is more. Beside that: bodies and pieces whose surface has sides without exactly two faces, and the largest difference
@@ -23,10 +23,11 @@ fn main() -> Result<(), Box<dyn Error>> {
         "| scene | at rest | off | in the floor, mm | in another, mm | apart, mm | drawn | open | volume off, % | of all, % |"
     );
     println!("|---|---|---|---|---|---|---|---|---|---|");
-    if let [word, seeds] = &asked[..]
+    if let [word, seeds, first @ ..] = &asked[..]
         && word == "made"
     {
-        for seed in 0..seeds.parse()? {
+        let first: u64 = first.first().map_or(Ok(0), |first| first.parse())?;
+        for seed in first..first + seeds.parse::<u64>()? {
             let (scene, bodies) = made::made(seed)?;
             report(&play(&scene, &bodies, &mut |_| {})?);
         }

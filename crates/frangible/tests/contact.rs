@@ -143,3 +143,24 @@ fn a_contact_that_cannot_be_used_is_refused_by_the_name_of_its_field() {
         );
     }
 }
+
+#[test]
+fn a_pulse_too_short_to_be_computed_is_refused() {
+    let validated = |duration| {
+        let contact = Contact {
+            duration,
+            ..sound()
+        };
+        contact.validate()
+    };
+    for duration in [f32::MIN_POSITIVE, 1e-45, 9e-13] {
+        let error = validated(duration).unwrap_err().to_string();
+        assert!(
+            error.contains("duration") && error.contains("1e-12 or more"),
+            "{error}"
+        );
+    }
+    for duration in [0.0, 1e-12, 1e-3] {
+        validated(duration).unwrap();
+    }
+}

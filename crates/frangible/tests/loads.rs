@@ -158,3 +158,18 @@ fn a_motion_from_elsewhere_cracks_as_the_impact_that_it_is_of() {
         assert!(follow(&body, motion, &[], step, &config).is_err());
     }
 }
+
+#[test]
+fn a_steady_load_whose_energy_is_no_number_is_refused() {
+    let body = shelf().body(1);
+    let mut config = FractureConfig::default();
+    for culling in [true, false] {
+        config.culling = culling;
+        let gravity = Vec3::NEG_Z * 3e38;
+        let error = rest(&body, &[], gravity, &config).unwrap_err().to_string();
+        assert!(
+            error.contains("elastic energy") && error.contains("gravity"),
+            "{error}"
+        );
+    }
+}

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Draws the pictures of README.md: env/bin/python tools/blender/pictures/draw.py [stress|pieces|seeds]..."""
+"""Draws the pictures of README.md and of the book's page on kits: env/bin/python tools/blender/pictures/draw.py [stress|pieces|seeds|kit]..."""
 
 import math
 import os
+import subprocess
 import sys
+import tempfile
 import traceback
 from pathlib import Path
 
@@ -11,6 +13,7 @@ import bpy
 from mathutils import Vector
 
 HERE = Path(__file__).resolve().parent
+ROOT = HERE.parents[2]
 sys.path.insert(0, str(HERE.parent))
 
 import extension
@@ -119,8 +122,8 @@ def studio(scene, look, eye, width, size=(720, 450)):
     scene.render.image_settings.quality = 82
 
 
-def render(scene, name):
-    scene.render.filepath = str(HERE / f"{name}.jpg")
+def render(scene, name, folder=HERE):
+    scene.render.filepath = str(folder / f"{name}.jpg")
     bpy.ops.render.render(write_still=True)
 
 
@@ -155,12 +158,39 @@ def seeds():
     render(scene, "seeds")
 
 
+def kit():
+    """The steps of the book's page on kits: the model of seven parts is imported, and a column is broken."""
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    scene = bpy.context.scene
+    with tempfile.TemporaryDirectory() as folder:
+        model = Path(folder) / "temple.obj"
+        subprocess.run([sys.executable, ROOT / "apps/python/examples/temple.py", model], check=True)
+        bpy.ops.wm.obj_import(filepath=str(model))
+    parts = {thing.name: thing for thing in scene.objects}
+    print(sorted(parts))
+    for thing in parts.values():
+        thing.data.materials.clear()
+        paint(thing.data, "Marble", (0.75, 0.73, 0.68, 1), 0.4)
+    settings = scene.frangible
+    settings.material, settings.tetrahedra, settings.modes, settings.motion = "porcelain", 9000, 40, "KEYFRAMES"
+    settings.mass, settings.radius, settings.seconds = 0.3, 0.02, 1
+    # The cursor on the front of the column.
+    thing = parts["column_1"]
+    corners = [thing.matrix_world @ Vector(corner) for corner in thing.bound_box]
+    scene.cursor.location = (sum(corner.x for corner in corners) / 8, min(corner.y for corner in corners), 0.1)
+    settings.target, settings.speed = thing, 8
+    print(bpy.ops.frangible.break_object(), settings.found)
+    scene.frame_set(FRAME)
+    studio(scene, (0, 0, 0.09), (-0.45, -1, 0.35), 0.42)
+    render(scene, "temple-blender", ROOT / "book/src/how-to/pictures")
+
+
 if __name__ == "__main__":
     extension.register()
     status = 1
     try:
-        for wanted in sys.argv[1:] or ["stress", "pieces", "seeds"]:
-            {"stress": stress, "pieces": pieces, "seeds": seeds}[wanted]()
+        for wanted in sys.argv[1:] or ["stress", "pieces", "seeds", "kit"]:
+            {"stress": stress, "pieces": pieces, "seeds": seeds, "kit": kit}[wanted]()
         status = 0
     except Exception:
         traceback.print_exc()

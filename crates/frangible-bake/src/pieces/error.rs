@@ -14,6 +14,9 @@ pub enum PieceError {
     /// The computed modes do not match the piece.
     #[error(transparent)]
     Body(#[from] InputError),
+    /// A piece that consists of parts of cut tetrahedra.
+    #[error("a piece has no uncut tetrahedra, and so no modes; it cannot break again")]
+    NoTetrahedra,
     /// A matrix that cannot be factored.
     #[error(
         "the stiffness matrix of a piece cannot be factorized ({reason}); the piece cannot break again"

@@ -28,6 +28,9 @@ const MOST: usize = 60;
 /// # Errors
 /// The piece has no uncut tetrahedra, or the eigenvalue problem has no solution.
 pub fn parent_modes(portion: &Arc<Portion>, parent: &Body) -> Result<Elastic, PieceError> {
+    if portion.tets().is_empty() {
+        return Err(PieceError::NoTetrahedra);
+    }
     let asset = &**parent.asset();
     let (analysis, tets, nodes, old) = restricted(portion, asset);
     let held = !portion.supported().is_empty();

@@ -3,7 +3,8 @@
 //! No convex decomposition happens at run time: the bake cut the body into convex cells, a crack only shares
 //! them out. Shapes serve contact alone; masses always come from the exact pieces.
 //!
-//! The hulls of a fragment follow what is drawn, also those of debris: a tip that a collider misses sinks into the floor.
+//! The hulls of a fragment follow what is drawn, also those of debris: a tip that a collider misses sinks into the floor. What is drawn is the author's
+//! surface where the asset has one, and that lies outside of the fracture mesh here and there.
 
 use frangible::internals::mesh::{
     ConvexHull, bounds, box_of, hulls_of_parts, merged_parts, thinned,
@@ -39,15 +40,21 @@ pub fn collision_shape(fragment: &Fragment, config: &WorldConfig) -> SharedShape
         let ratio = f64::from(config.hull_volume_ratio);
         is_debris(fragment, config) || hull.volume() <= ratio * fragment.mass.volume
     };
+    let drawn = (fragment.render.as_ref()).map_or(&[][..], |drawn| &drawn.positions);
     // A few corners tell most hollow pieces.
     let coarse = ConvexHull::new(positions, most.min(COARSE), within).filter(fills);
-    let whole = coarse.and_then(|_| ConvexHull::new(positions, most, within));
-    if let Some(shape) = whole.filter(fills).as_ref().and_then(solid) {
-        return shape;
+    if coarse.is_some() {
+        // A round piece needs more corners than a part of it would.
+        let most = most.saturating_mul(config.fragment_collider.parts);
+        let whole = hulls_of_parts(vec![positions.clone()], drawn, most, within);
+        let whole = whole.into_iter().find(fills);
+        if let Some(shape) = whole.as_ref().and_then(solid) {
+            return shape;
+        }
     }
     let shares = fragment.cell_shares.iter().map(|(_, points)| &**points);
     let parts = merged_parts(shares.collect(), config.fragment_collider.parts);
-    let hulls = hulls_of_parts(parts, most, within);
+    let hulls = hulls_of_parts(parts, drawn, most, within);
     compound(hulls.iter().filter_map(solid))
         .or_else(|| solid(&ConvexHull::new(positions, most, within)?))
         .unwrap_or_else(|| fitted_box(positions, fragment.mass.volume))

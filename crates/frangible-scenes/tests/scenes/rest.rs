@@ -62,11 +62,6 @@ fn pieces_at_rest_lie_where_they_are_drawn() {
     }
 }
 
-/// Pieces of made meshes that lie too deep in the floor, by up to [`DEEPER`] times their bound: a known defect. Not yet confirmed as its cause: the drawn
-/// surface of such a mesh lies outside of the mesh that the collider follows by a part of a tetrahedron.
-const TOO_DEEP: [&str; 2] = ["seed 0, body piece 9: ", "seed 3, body piece 1: "];
-const DEEPER: f64 = 1.25;
-
 #[test]
 fn pieces_of_made_meshes_at_rest_lie_where_they_are_drawn() {
     let (mut resting, mut drawn, mut off) = (0, 0, Vec::new());
@@ -75,9 +70,6 @@ fn pieces_of_made_meshes_at_rest_lie_where_they_are_drawn() {
         let run = play(&scene, &baked, &mut |_| {}).unwrap();
         let lies = lies(&run.recording);
         resting += lies.len();
-        for lie in &lies {
-            assert!(lie.in_floor.max(lie.apart) <= DEEPER * lie.bound, "{lie}");
-        }
         let wrong = lies.into_iter().filter(|lie| !lie.is_true());
         off.extend(wrong.map(|lie| format!("seed {seed}, {lie}")));
         // Faces that close the gap between an author's surface and crack faces may lie on each other, so that an edge has four: sides are not
@@ -93,9 +85,7 @@ fn pieces_of_made_meshes_at_rest_lie_where_they_are_drawn() {
         off.len()
     );
     assert!(resting > 20, "{resting} of {drawn}");
-    let mut others =
-        (off.iter()).filter(|off| !TOO_DEEP.iter().any(|known| off.starts_with(known)));
-    assert!(others.next().is_none(), "{off:#?}");
+    assert!(off.is_empty(), "{off:#?}");
 }
 
 #[test]

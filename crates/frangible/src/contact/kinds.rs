@@ -192,6 +192,7 @@ impl Contact {
         ] {
             not_negative(what, f64::from(value))?;
         }
+        pulse_lasts("a contact's duration (s)", self.duration)?;
         // Infinity is meant here: a rigid or a flat striker.
         for (what, value) in [
             ("a striker's contact modulus", self.striker.contact_modulus),
@@ -232,6 +233,19 @@ impl Contact {
         OutOfRange::unless(fits, "restitution", e, OutOfRange::RESTITUTION)?;
         Ok(())
     }
+}
+
+/// Shortest pulse, s: light goes a third of a millimetre meanwhile. Times in it are no normal numbers of single precision in the end.
+const SHORTEST_PULSE: f32 = 1e-12;
+
+/// Checks that a pulse, if it has a duration, is long enough to be computed.
+///
+/// # Errors
+/// A duration that is not.
+pub(crate) fn pulse_lasts(what: &'static str, duration: f32) -> Result<(), OutOfRange> {
+    let fits = duration == 0.0 || duration >= SHORTEST_PULSE;
+    let must = "1e-12 or more; give a longer pulse of the same impulse";
+    OutOfRange::unless(fits, what, f64::from(duration), must)
 }
 
 /// These contacts with every script's push as one along its own direction.

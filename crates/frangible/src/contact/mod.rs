@@ -19,7 +19,7 @@ pub use duration::{
 };
 pub(crate) use duration::{contact_radius_of_curvature, hertz_at, touch_duration};
 pub use kinds::Contact;
-pub(crate) use kinds::in_one;
+pub(crate) use kinds::{in_one, pulse_lasts};
 pub use load::{Load, Touch, modal_load};
 pub(crate) use load::{give, inverse_mass};
 pub use pulse::pulse;

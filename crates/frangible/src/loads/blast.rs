@@ -5,7 +5,7 @@ use glam::Vec3;
 use crate::asset::{Asset, each_row};
 use crate::body::Body;
 use crate::config::FractureConfig;
-use crate::contact::{self, Load};
+use crate::contact::{self, Load, pulse_lasts};
 use crate::cracking::{Cracking, Moves};
 use crate::error::{InputError, finite, positive};
 use crate::impact::pieces;
@@ -42,6 +42,7 @@ pub fn blast(body: &Body, blast: &Blast, config: &FractureConfig) -> Result<Outc
         "Pa·s",
     )?;
     positive("a blast's duration", f64::from(blast.duration), "s")?;
+    pulse_lasts("a blast's duration (s)", blast.duration)?;
     config.validate()?;
     let asset = &*body.asset;
     let load = Load {

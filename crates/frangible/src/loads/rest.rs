@@ -4,6 +4,7 @@
 //! body needs no term: a force spread as the mass is lies in the span of its rigid motions, to which all modes are
 //! orthogonal. A held body hangs from its supports, and its weight bends it.
 
+use frangible_material::OutOfRange;
 use glam::Vec3;
 
 use crate::asset::each_row;
@@ -27,6 +28,9 @@ pub struct Force {
     pub force: Vec3,
 }
 
+/// Largest elastic energy of a steady load, J, that of 200 tonnes of TNT: squares of stresses beyond leave single precision.
+const MOST_ENERGY: f64 = 1e12;
+
 /// Crack paths are followed over so many diagonals of the body: cracks that turn are longer than straight ones.
 const DIAGONALS: f64 = 3.0;
 
@@ -38,7 +42,7 @@ const DIAGONALS: f64 = 3.0;
 /// [`FractureConfig::load_duration`].
 ///
 /// # Errors
-/// A force, point or gravity that is not finite; the errors of [`FractureConfig::validate`].
+/// A force, point or gravity that is not finite, or too large for single precision; the errors of [`FractureConfig::validate`].
 pub fn rest(
     body: &Body,
     forces: &[Force],
@@ -112,6 +116,12 @@ pub fn rest(
     report.peak_strain_energy = energy
         .map(|(&q, l)| 0.5 * l * f64::from(q) * f64::from(q))
         .sum();
+    OutOfRange::unless(
+        report.peak_strain_energy <= MOST_ENERGY,
+        "the elastic energy of static forces and gravity (J)",
+        report.peak_strain_energy,
+        "at most 1e12; give smaller forces or less gravity",
+    )?;
     let (time_step, steps) = steps(body, config);
     report.time_step = time_step;
     report.time_steps = steps;
