@@ -15,6 +15,7 @@ mod events;
 mod examples;
 mod friction;
 mod inheritance;
+mod laminated;
 mod late;
 mod many;
 mod merging;
