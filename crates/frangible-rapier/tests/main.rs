@@ -4,6 +4,7 @@ mod again;
 mod ask;
 mod blows;
 mod breaker;
+mod bystander;
 mod callbacks;
 mod common;
 mod conservation;
