@@ -111,7 +111,7 @@ pub use bodies::dispatch::PieceContacts;
 pub use bodies::insert::Ball;
 pub use bodies::mortar::Mortar;
 pub use breaker::{Breaker, Sets};
-pub use config::{AtRest, Breaking, ColliderDetail, PieceConfig, WorldConfig};
+pub use config::{AtRest, Breaking, ColliderDetail, PieceConfig, SmallPieces, WorldConfig};
 pub use contact::surface::SurfaceProperties;
 pub use counts::LoadCounts;
 pub use error::WorldError;
