@@ -1,4 +1,4 @@
-//! Two physics engines play equal scenes: `cargo run --release --example engines [-- --write]` plays each with a hundred seeds in Rapier and in
+//! Two physics engines play equal scenes: `cargo run --release --example engines [-- --write]` plays each with thirty seeds in Rapier and in
 //! Avian, and prints a page of the outcomes, or writes it to `docs/engines.md`.
 
 mod alone;
@@ -18,7 +18,7 @@ use frangible_bake::{BakeSpec, Region, Shape, Support, bake};
 use scenes::{Outcome, RATES, Scene, ball_on_pane, brick_on_plate, dropped};
 
 /// Seeds of each scene.
-const SEEDS: u64 = 100;
+const SEEDS: u64 = 30;
 
 /// Outcomes of a scene, one for each seed.
 #[derive(Default)]

@@ -139,9 +139,9 @@ fn losses(out: &mut String, played: &[(Scene, Played)]) {
 
 /// The whole page.
 pub fn page(played: &[(Scene, Played)]) -> String {
-    let mut out = String::from(
+    let mut out = format!(
         "# Three physics engines\n\nThe same bodies, strikers and speeds in Rapier 0.36 (`frangible-rapier`, which undoes the step of a break and takes it \
-         again) and in Avian 0.7\n(`bevy_frangible`, which asks before the contacts are solved), 240 steps per second, a hundred seeds each: means with \
+         again) and in Avian 0.7\n(`bevy_frangible`, which asks before the contacts are solved), 240 steps per second, {SEEDS} seeds each: means with \
          their standard errors. The\nfracture is the same library in both, and so are the velocities after a blow. What differs is where and when an \
          engine says that bodies touch, and\nhow the pieces meet each other and anything else afterwards. Made by `cargo run --release --example engines -- --write` in \
          `bevy_frangible`.\nThe third engine is [Bullet](#bullet), at the end.\n\n",

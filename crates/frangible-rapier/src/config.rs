@@ -20,7 +20,8 @@ pub enum Breaking {
     AfterStep {
         /// Work per step, in tetrahedra of the fracture meshes of bodies that a quick bound does not clear; at least one body. The
         /// others wait in the order of their blows and stay whole until then; if a waiting body is hit several times, the hardest
-        /// blow counts. `usize::MAX`: no waiting.
+        /// blow counts. `usize::MAX`: no waiting. With a delay, no more than `budget` × `delay` is under way at once, or one body: other threads
+        /// that compute so much in that time are never waited for.
         budget: usize,
         /// Number of steps that other threads have to compute a break while the world continues; the world then waits for unfinished
         /// breaks, so that a body breaks in the same step on any machine. 0: compute the break inside
@@ -37,6 +38,15 @@ pub struct ColliderDetail {
     /// Largest number of points of each part, 4 or more. A part of a fragment has fewer where fewer suffice: its hull follows what is drawn to
     /// 0.3 % of the fragment's longest side, or of [`WorldConfig::length_unit`] if that is longer. A fragment that is a single hull may have as many as
     /// all parts together.
+    pub hull_points: usize,
+}
+
+/// Fragments whose collider is a single hull of few points, however hollow they are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SmallPieces {
+    /// Mass below which a fragment is small, kg; zero for none.
+    pub mass: f32,
+    /// Largest number of points of its hull, 4 or more.
     pub hull_points: usize,
 }
 
@@ -129,6 +139,8 @@ pub struct WorldConfig {
     /// may have: every share of a cell with 128 points 97 ms, 12 parts of 48 points 45 ms, 4 parts of 24 points with
     /// [`WorldConfig::hull_volume_ratio`] 3 13 ms.
     pub fragment_collider: ColliderDetail,
+    /// Fragments with the cheapest collider. Default none. They are most of a heap of crockery, and the colliders of the others matter less.
+    pub small_pieces: SmallPieces,
     /// Separation speed of fragments of the same parent whose colliders overlap when they are born, m/s; zero leaves these overlaps unchanged.
     /// Fragments that are pressed into each other later come out as other bodies do.
     /// Default 0.002: in a chain of pieces the speeds add up, and the sum must stay below the threshold of rest.
@@ -197,6 +209,10 @@ impl Default for WorldConfig {
             fragment_collider: ColliderDetail {
                 parts: 12,
                 hull_points: 128,
+            },
+            small_pieces: SmallPieces {
+                mass: 0.0,
+                hull_points: 12,
             },
             overlap_relaxation: 0.002,
             rolling_arm: 5e-4,
@@ -277,6 +293,11 @@ impl WorldConfig {
             positive("number of parts of a collider", detail.parts as f32)?;
             positive("number of points of a hull", detail.hull_points as f32)?;
         }
+        not_negative("mass of a small piece (kg)", self.small_pieces.mass)?;
+        positive(
+            "number of points of a small piece",
+            self.small_pieces.hull_points as f32,
+        )?;
         not_negative(
             "least mass of a piece that breaks again (kg)",
             self.pieces.least_mass,

@@ -47,7 +47,7 @@
 //!
 //! # Many bodies
 //! For scenes with hundreds of bodies use [`Breaking::AfterStep`], which needs no copy and no second step and spreads the work over
-//! steps and threads; [`ColliderDetail`] for simple colliders; [`WorldConfig::dust_mass`] and [`WorldConfig::debris_mass`] for
+//! steps and threads; [`ColliderDetail`] and [`SmallPieces`] for simple colliders; [`WorldConfig::dust_mass`] and [`WorldConfig::debris_mass`] for
 //! negligible pieces; and the feature `parallel` for Rapier's own threads. Results are bit-identical for any number of threads. The
 //! china shop, the example `shop` of the unpublished crate `frangible-lab`, has a thousand bodies.
 //!
@@ -111,7 +111,7 @@ pub use bodies::dispatch::PieceContacts;
 pub use bodies::insert::Ball;
 pub use bodies::mortar::Mortar;
 pub use breaker::{Breaker, Sets};
-pub use config::{AtRest, Breaking, ColliderDetail, PieceConfig, WorldConfig};
+pub use config::{AtRest, Breaking, ColliderDetail, PieceConfig, SmallPieces, WorldConfig};
 pub use contact::surface::SurfaceProperties;
 pub use counts::LoadCounts;
 pub use error::WorldError;

@@ -6,7 +6,9 @@ use frangible_rapier::rapier3d::dynamics::{RigidBodyBuilder, RigidBodyHandle};
 use frangible_rapier::rapier3d::geometry::ShapeType;
 use frangible_rapier::rapier3d::math::Vector;
 use frangible_rapier::rapier3d::parry::bounding_volume::BoundingVolume;
-use frangible_rapier::{AtRest, Ball, BreakableWorld, SurfaceProperties, WorldConfig};
+use frangible_rapier::{
+    AtRest, Ball, BreakableWorld, SurfaceProperties, WorldConfig, collision_shape,
+};
 
 const HALF: Vec3 = Vec3::new(0.02, 0.02, 0.0004);
 
@@ -146,6 +148,33 @@ fn debris_collides_as_its_hull() {
         for &p in &fragment.mesh.positions {
             assert!(bounds.loosened(1e-6).contains_local_point(p), "{p}");
         }
+    }
+}
+
+#[test]
+fn a_small_piece_has_one_hull_however_hollow_it_is() {
+    let half = Vec3::splat(0.02);
+    let mut piece = sliced(half, [1, 1, 1], 0.0, 0.0).fragments.remove(0);
+    // Two cells at its ends, and nothing between them.
+    let ends = [-0.015, 0.015].map(|x| {
+        let corners = piece.mesh.positions.iter();
+        corners
+            .map(|p| Vec3::new(0.25 * p.x + x, p.y, p.z))
+            .collect()
+    });
+    piece.cell_shares = ends.into_iter().map(|points| (0, points)).collect();
+    piece.mass.volume *= 0.5;
+    let mut config = WorldConfig::default();
+    config.small_pieces.hull_points = 6;
+    for (mass, shape, points) in [
+        (0.9 * piece.mass.mass, ShapeType::Compound, None),
+        (1.1 * piece.mass.mass, ShapeType::ConvexPolyhedron, Some(6)),
+    ] {
+        config.small_pieces.mass = mass as f32;
+        let found = collision_shape(&piece, &config);
+        assert_eq!(found.shape_type(), shape);
+        let hull = found.as_convex_polyhedron().map(|h| h.points().len());
+        assert_eq!(hull, points);
     }
 }
 

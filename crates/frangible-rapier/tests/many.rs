@@ -130,6 +130,26 @@ fn a_delay_puts_every_break_off_by_so_many_steps() {
 }
 
 #[test]
+fn no_more_is_under_way_than_the_budget_allows_in_the_time_of_the_delay() {
+    let breaking = Breaking::AfterStep {
+        budget: TETS / 2,
+        delay: 6,
+    };
+    let mut world = world(breaking, |_| {});
+    let panes = firing_squad(&mut world, 6);
+    let all = breaks(&mut world, 60);
+    let order: Vec<_> = all
+        .iter()
+        .flat_map(|(_, parents)| parents.clone())
+        .collect();
+    assert_eq!(order, panes, "all break, in the order of the blows");
+    // Three are under way at once: one begins in each of three steps, and the next three when those are done.
+    let first = all[0].0;
+    let steps: Vec<u64> = all.iter().map(|(step, _)| step - first).collect();
+    assert_eq!(steps, [0, 1, 2, 7, 8, 9]);
+}
+
+#[test]
 fn momentum_stays_and_energy_never_rises_when_bodies_break_after_the_step() {
     for delay in [0, 5] {
         let breaking = Breaking::AfterStep { budget: 1, delay };

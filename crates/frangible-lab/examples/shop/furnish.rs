@@ -23,12 +23,11 @@ const PLACE: f32 = 0.17;
 /// Half extents of a plank, m, and its mass, kg.
 const PLANK: Vector = Vector::new(0.88, 0.012, 0.18);
 const PLANK_MASS: f32 = 5.0;
-/// The bull, kg and m, and its speed, m/s.
+/// The bull, kg and m.
 const BULL: Ball = Ball {
     mass: 400.0,
     radius: 0.45,
 };
-const SPEED: f32 = 7.0;
 
 pub(crate) struct Shop {
     pub(crate) world: BreakableWorld,
@@ -101,11 +100,11 @@ fn group(world: &mut BreakableWorld, body: RigidBodyHandle, members: Group, filt
     }
 }
 
-/// Lets the bull in: it rolls along the middle of the right-hand planks.
-pub(crate) fn let_in(world: &mut BreakableWorld) -> Result<RigidBodyHandle> {
+/// Lets the bull in at a speed, m/s: it rolls along the middle of the right-hand planks.
+pub(crate) fn let_in(world: &mut BreakableWorld, speed: f32) -> Result<RigidBodyHandle> {
     let lane = PLANK.x + 0.02;
     let start = Pose::translation(lane, BULL.radius + 0.001, -1.2);
-    let velocity = Vector::new(0.0, 0.0, SPEED);
+    let velocity = Vector::new(0.0, 0.0, speed);
     let bull = world.insert_ball(BULL, SurfaceProperties::STONE, start, velocity)?;
     world.physics.bodies[bull].enable_ccd(false);
     Ok(bull)

@@ -1,24 +1,30 @@
 //! A bull in a china shop: a thousand breakable things on planks, a ball of 400 kg at 7 m/s, frame times.
 //!
 //! `cargo run --release -p frangible-lab --example shop -- [RUNS] [SECONDS]` prints JSON, for `docs/data/shop.json`. Every run gives the same bits, so a
-//! frame's time is its least over the runs, and percentiles are over frames.
+//! frame's time is its least over the runs, and percentiles are over frames. With the word `levers` in front it prints the table of settings in
+//! `docs/engines.md` instead.
 
 mod crockery;
 mod furnish;
+mod levers;
 mod play;
 
 use frangible_lab::Result;
-use frangible_lab::bench::Fingerprint;
 use frangible_lab::bench::stats::Times;
 use frangible_lab::data::{Measures, stored};
 use serde_json::{Value, json};
 
-use play::{BUDGET, DELAY, FRAME_RATE, Frame, Happened, PARTS};
+use play::{BUDGET, DELAY, FRAME_RATE, Frame, Happened, PARTS, SPEED};
 
 fn main() -> Result<()> {
-    let mut words = std::env::args().skip(1);
+    let mut words = std::env::args().skip(1).peekable();
+    let levers = words.next_if(|word| word == "levers").is_some();
     let mut number = |default: usize| words.next().map_or(Ok(default), |word| word.parse());
     let (runs, seconds) = (number(5)?, number(4)?);
+    if levers {
+        print!("{}", levers::table(runs, seconds)?);
+        return Ok(());
+    }
     println!(
         "{:#}",
         stored(Measures::Scenes, true, &measure(runs, seconds)?)?
@@ -30,14 +36,7 @@ fn main() -> Result<()> {
 fn measure(runs: usize, seconds: usize) -> Result<Value> {
     let count = seconds * FRAME_RATE as usize;
     let kinds = crockery::bake_all()?;
-    let mut best = play::play(&kinds, count)?;
-    for _ in 1..runs {
-        let other = play::play(&kinds, count)?;
-        same(best.print, other.print)?;
-        for (frame, other) in best.frames.iter_mut().zip(&other.frames) {
-            frame.least(other);
-        }
-    }
+    let best = play::play_often(&kinds, count, &play::config(), SPEED, runs)?;
     let spread = |name: &str, times: Vec<f64>| json!({ "part": name, "seconds": Times::new(times).spread() });
     let of =
         |name, part: &dyn Fn(&Frame) -> f64| spread(name, best.frames.iter().map(part).collect());
@@ -62,13 +61,6 @@ fn measure(runs: usize, seconds: usize) -> Result<Value> {
         "frames": frames,
         "fingerprint": format!("{:016x}", best.print.value()),
     }))
-}
-
-fn same(a: Fingerprint, b: Fingerprint) -> Result<()> {
-    if a == b {
-        return Ok(());
-    }
-    Err("two equal runs of the china shop differ: please report it".into())
 }
 
 #[cfg(test)]

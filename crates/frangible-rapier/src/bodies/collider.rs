@@ -28,17 +28,21 @@ const LEAST_VOLUME: f32 = 1e-15;
 /// Smallest half extent of a stand-in box, m.
 const MIN_HALF_EXTENT: f32 = 2e-4;
 
-/// The collision shape that a world of this configuration gives a fragment, in the fragment frame: one hull where the fragment is debris or nearly
-/// convex, else the hulls of its shares of the cells, else a box.
+/// The collision shape that a world of this configuration gives a fragment, in the fragment frame: one hull where the fragment is debris, small or
+/// nearly convex, else the hulls of its shares of the cells, else a box.
 #[must_use]
 pub fn collision_shape(fragment: &Fragment, config: &WorldConfig) -> SharedShape {
     let positions = &fragment.mesh.positions;
     let (low, high) = bounds(positions);
     let within = TOLERANCE * (high - low).max_element().max(config.length_unit);
-    let most = config.fragment_collider.hull_points.max(4);
+    let small = fragment.mass.mass < f64::from(config.small_pieces.mass);
+    let most = match small {
+        true => config.small_pieces.hull_points.max(4),
+        false => config.fragment_collider.hull_points.max(4),
+    };
     let fills = |hull: &ConvexHull| {
         let ratio = f64::from(config.hull_volume_ratio);
-        is_debris(fragment, config) || hull.volume() <= ratio * fragment.mass.volume
+        small || is_debris(fragment, config) || hull.volume() <= ratio * fragment.mass.volume
     };
     let drawn = (fragment.render.as_ref()).map_or(&[][..], |drawn| &drawn.positions);
     // A few corners tell most hollow pieces.

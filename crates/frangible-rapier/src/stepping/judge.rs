@@ -40,6 +40,8 @@ pub(crate) struct Case {
     impact: Impact,
     /// Number of the step in which the world asks for the verdict.
     pub(super) due: u64,
+    /// Its work, tetrahedra.
+    pub(super) cost: usize,
     work: Arc<Work>,
     verdict: Mutex<Receiver<Result<Verdict, WorldError>>>,
 }
@@ -145,6 +147,7 @@ impl BreakableWorld {
         &mut self,
         body: RigidBodyHandle,
         impact: Impact,
+        cost: usize,
         due: u64,
     ) -> Result<Case, WorldError> {
         let (sender, verdict) = channel();
@@ -161,6 +164,7 @@ impl BreakableWorld {
             body,
             impact,
             due,
+            cost,
             work,
             verdict: Mutex::new(verdict),
         })

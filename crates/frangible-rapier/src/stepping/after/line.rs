@@ -28,8 +28,8 @@ pub(crate) struct Waiting {
 pub(super) struct Turn {
     /// Blows that a quick bound refuses.
     pub(super) cheap: Vec<(RigidBodyHandle, Impact)>,
-    /// Blows that use up the budget.
-    pub(super) dear: Vec<(RigidBodyHandle, Impact)>,
+    /// Blows that use up the budget, with their work.
+    pub(super) dear: Vec<(RigidBodyHandle, Impact, usize)>,
     /// Bodies that were hit in the step just taken.
     pub(super) fresh: BTreeSet<Key>,
 }
@@ -55,10 +55,17 @@ impl BreakableWorld {
     }
 
     /// Takes the blows whose turn it is out of the line, and those on bodies that are gone.
-    pub(super) fn next_in_line(&mut self, budget: usize) -> Turn {
+    pub(super) fn next_in_line(&mut self, budget: usize, delay: usize) -> Turn {
         let mut turn = Turn::default();
         let mut later = VecDeque::new();
         let mut work = 0_usize;
+        let under_way: usize = self.cases.iter().map(|case| case.cost).sum();
+        // At least one body in a step, and at least one under way.
+        let fits = |work: usize, cost: usize| {
+            let work_with = work.saturating_add(cost);
+            let later = under_way.saturating_add(work_with) <= budget.saturating_mul(delay);
+            (work == 0 || work_with <= budget) && (under_way == 0 || later)
+        };
         for waiting in std::mem::take(&mut self.state.waiting) {
             let handle = waiting.body;
             if self.breakable(handle).is_none() {
@@ -72,9 +79,9 @@ impl BreakableWorld {
                 later.push_back(waiting);
             } else if waiting.cost == 0 {
                 turn.cheap.push((handle, waiting.impact));
-            } else if work == 0 || work.saturating_add(waiting.cost) <= budget {
+            } else if fits(work, waiting.cost) {
                 work += waiting.cost;
-                turn.dear.push((handle, waiting.impact));
+                turn.dear.push((handle, waiting.impact, waiting.cost));
             } else {
                 // First come, first served: a blow behind one that must wait for the budget waits too.
                 work = usize::MAX;

@@ -23,15 +23,19 @@ impl BreakableWorld {
         before: &HitBodies,
     ) -> Result<(), WorldError> {
         let mut watch = Watch::start();
-        let turn = self.next_in_line(budget);
+        let turn = self.next_in_line(budget, delay);
         let mut at_once = turn.cheap;
         let mut done = Ok(());
         if delay == 0 {
-            at_once.extend(turn.dear);
+            at_once.extend(
+                turn.dear
+                    .into_iter()
+                    .map(|(body, impact, _)| (body, impact)),
+            );
         } else {
             let due = self.state.steps + delay as u64;
-            for (body, impact) in turn.dear {
-                match self.judge_elsewhere(body, impact, due) {
+            for (body, impact, cost) in turn.dear {
+                match self.judge_elsewhere(body, impact, cost, due) {
                     Ok(case) => self.cases.push_back(case),
                     Err(error) => done = done.and(Err(error)),
                 }
