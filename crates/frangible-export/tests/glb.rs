@@ -3,7 +3,7 @@
 use frangible_export::{ExportError, write_glb};
 use frangible_recording::glam::{Quat, Vec3};
 use frangible_recording::{
-    Floor, MeshPart, Moments, Pose, RecordedBlow, RecordedCrack, RecordedMesh, RecordedNode,
+    Floor, Grain, MeshPart, Moments, Pose, RecordedBlow, RecordedCrack, RecordedMesh, RecordedNode,
     RecordedPulse, RecordedSlide, RecordedTouch, Recording, RecordingError, SurfaceMaterial, View,
 };
 use gltf::animation::util::ReadOutputs;
@@ -238,6 +238,23 @@ fn the_same_recording_gives_the_same_bytes() {
         write_glb(&recording()).unwrap(),
         write_glb(&recording()).unwrap()
     );
+}
+
+#[test]
+fn marked_faces_carry_their_marks_and_others_do_not() {
+    let mut marked = recording();
+    let has = |recording: &Recording| {
+        let bytes = write_glb(recording).unwrap();
+        read(&bytes);
+        let words = bytes.windows(7).filter(|word| word == b"\"_MARK\"");
+        words.count()
+    };
+    marked.meshes[0].marks = vec![[1e-3, 0.0, 0.0, 500.0]; 4];
+    assert_eq!(has(&marked), 0, "no surface shows them");
+    marked.surfaces[1].grain = Grain::Marked;
+    assert_eq!(has(&marked), 1);
+    marked.meshes[0].marks.pop();
+    assert!(matches!(write_glb(&marked), Err(ExportError::Recording(_))));
 }
 
 #[test]

@@ -5,6 +5,7 @@
 mod error;
 mod fatigue;
 mod laminate;
+mod marks;
 mod material;
 mod presets;
 mod temper;

@@ -1,9 +1,20 @@
 //! Looks of materials from close by.
 
-use frangible_recording::glam::Vec3A;
+use frangible_recording::glam::{Vec3A, Vec4};
 use frangible_recording::{Grain, SurfaceMaterial};
 use noise_functions::modifiers::Fbm;
 use noise_functions::{CellDistance, CellValue, Noise, Simplex};
+
+/// Tilt of a fresh face of glass of which no more is known.
+const BROKEN: f32 = 0.11;
+
+/// The colour of frosted glass.
+const FROST: Vec3A = Vec3A::new(0.80, 0.84, 0.83);
+
+/// Shares of light that mist and hackle scatter, and that any crack within glass does.
+const MIST: f32 = 0.35;
+const HACKLE: f32 = 0.20;
+const CRACK_HAZE: f32 = 0.12;
 
 /// A surface as rays see it.
 pub(crate) struct Look {
@@ -60,9 +71,12 @@ impl Look {
         self.clear || self.opacity < 1.0
     }
 
-    /// The colour of clouds inside a clear body.
+    /// The colour of clouds inside a clear body, and of its frosted faces.
     pub(crate) fn cloud_color(&self) -> Vec3A {
-        self.color
+        match self.grain {
+            Grain::Marked => FROST,
+            _ => self.color,
+        }
     }
 
     pub(crate) fn bends(&self) -> bool {
@@ -80,8 +94,8 @@ impl Look {
             }
     }
 
-    /// The skin at a place of the mesh's frame, m.
-    pub(crate) fn skin(&self, at: Vec3A) -> Skin {
+    /// The skin at a place of the mesh's frame, m, with a row of [`RecordedMesh::marks`](frangible_recording::RecordedMesh::marks).
+    pub(crate) fn skin(&self, at: Vec3A, mark: Vec4) -> Skin {
         let even = Skin {
             color: self.color,
             roughness: self.roughness,
@@ -92,9 +106,19 @@ impl Look {
             Grain::Even => even,
             Grain::Broken => Skin {
                 // Between the ridges a fresh face of glass is a mirror.
-                bump: if self.clear { 0.11 } else { 0.34 } * lean(at, 0.0016, 2),
+                bump: if self.clear { BROKEN } else { 0.34 } * lean(at, 0.0016, 2),
                 ..even
             },
+            Grain::Marked => {
+                let (bump, cloud) = marked(at, mark);
+                // Dust and the rims of scales show a crack within glass from all sides.
+                let least = if self.thin { CRACK_HAZE } else { 0.0 };
+                Skin {
+                    bump,
+                    cloud: cloud.max(least),
+                    ..even
+                }
+            }
             Grain::Clay => {
                 let patch = fractal(at, 0.011, 3);
                 let speck = fractal(at, 0.0014, 3);
@@ -143,6 +167,37 @@ impl Look {
             }
         }
     }
+}
+
+/// Tilt of the normal of a crack face of glass, and the share of light that it scatters.
+///
+/// A mirror up to its radius, then mist, which takes up to 1.3 of that radius (10 and 13 flaws deep), then ridges along the crack's way, which widen with
+/// the distance as ridges that run from one point do, from 0.03 to 0.25 mm.
+fn marked(at: Vec3A, mark: Vec4) -> (Vec3A, f32) {
+    let way = Vec3A::from_vec4(mark);
+    let run = way.length();
+    if run <= 0.0 {
+        return (BROKEN * lean(at, 0.0016, 2), 0.0);
+    }
+    let (along, reached) = (way / run, run * mark.w);
+    let mist = smooth_step(0.85, 1.1, reached);
+    let hackle = smooth_step(1.2, 1.8, reached);
+    let dimples = 0.16 * mist * (1.0 - hackle) * lean(at, 0.00025, 2);
+    if hackle <= 0.0 {
+        return (dimples, MIST * mist);
+    }
+    // The number of ridges about the start doubles wherever they have become twice as wide.
+    let width = (0.06 * run).clamp(3e-5, 2.5e-4);
+    let level = (run / width).log2().max(0.0);
+    let ridges = |level: f32| {
+        let count = level.exp2();
+        lean(along * count + Vec3A::splat(0.15 * run / width), 1.0, 2)
+    };
+    let tilt = ridges(level.floor()).lerp(ridges(level.floor() + 1.0), level.fract());
+    let across = tilt - along * tilt.dot(along);
+    let depth = 0.18 + 0.14 * smooth_step(1.3, 4.0, reached);
+    let cloud = MIST * mist * (1.0 - hackle) + HACKLE * hackle;
+    (dimples + hackle * depth * across, cloud)
 }
 
 fn place(at: Vec3A, size: f32) -> [f32; 3] {

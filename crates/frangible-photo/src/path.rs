@@ -150,7 +150,7 @@ impl Traced<'_> {
         if met.look.opacity < 1.0 || met.look.thin {
             return self.light(*ray, random, LONGEST);
         }
-        let skin = met.look.skin(met.own);
+        let skin = met.skin();
         if skin.cloud > 0.0 {
             return self.light(*ray, random, LONGEST);
         }
@@ -173,7 +173,7 @@ impl Traced<'_> {
     }
 
     fn matt_first(&self, ray: &Ray, met: &Met<'_>, random: &mut Random) -> Seen {
-        let skin = met.look.skin(met.own);
+        let skin = met.skin();
         let normal = facing(bumpy(met, skin.bump), ray.along);
         let (gloss, reflectance) = self.gloss(ray, met, normal, skin.roughness, random);
         let mut seen = Seen {
@@ -221,7 +221,7 @@ impl Traced<'_> {
             // Through clear things, straight: bent light makes no brighter shade.
             return 0.9 * self.set.lights.room(ray.along);
         }
-        let skin = met.look.skin(met.own);
+        let skin = met.skin();
         let normal = facing(met.smooth, ray.along);
         if depth >= SCATTERINGS {
             return AMONG_THINGS * skin.color * backdrop(normal);
@@ -274,7 +274,7 @@ impl Traced<'_> {
             };
             let look = met.look;
             if !look.bends() && (look.opacity >= 1.0 || random.next() < look.opacity) {
-                let skin = look.skin(met.own);
+                let skin = met.skin();
                 let normal = facing(met.smooth, ray.along);
                 if look.metallic > 0.5 {
                     left *= skin.color;
@@ -293,7 +293,7 @@ impl Traced<'_> {
             if inside && !look.thin {
                 left *= (-look.swallows * met.distance).exp();
             }
-            let skin = look.skin(met.own);
+            let skin = met.skin();
             // Both the clouds and the things behind them are seen; after another cloudy face one of the two, by chance.
             let cloud = match std::mem::replace(&mut last_was_cloudy, skin.cloud > 0.0) {
                 false => skin.cloud,

@@ -59,7 +59,7 @@ impl Photon {
         if self.along.dot(met.flat) > 0.0 && !look.thin {
             self.light *= (-look.swallows * met.distance).exp();
         }
-        let skin = look.skin(met.own);
+        let skin = met.skin();
         if skin.cloud > 0.0 && random.next() < skin.cloud {
             return None;
         }

@@ -1,11 +1,11 @@
 //! Contents of the picture, ready to be met by rays.
 
-use frangible_recording::glam::{Quat, Vec3, Vec3A};
+use frangible_recording::glam::{Quat, Vec3, Vec3A, Vec4};
 use frangible_recording::{Recording, View};
 
 use crate::ground::Ground;
 use crate::light::Lights;
-use crate::look::Look;
+use crate::look::{Look, Skin};
 use crate::stage::StageUnits;
 use crate::tree::{Box3, Tree};
 
@@ -19,6 +19,8 @@ struct Corner {
     normal: Vec3A,
     /// In the frame of its mesh, m.
     own: Vec3A,
+    /// Row of [`RecordedMesh::marks`](frangible_recording::RecordedMesh::marks).
+    mark: Vec4,
 }
 
 struct Triangle {
@@ -38,9 +40,18 @@ pub(crate) struct Met<'a> {
     pub(crate) smooth: Vec3A,
     /// Place in the frame of the mesh, m.
     pub(crate) own: Vec3A,
+    /// Way of the crack in that frame, m, and one over the radius of its mirror, 1/m.
+    mark: Vec4,
     pub(crate) turn: Quat,
     pub(crate) look: &'a Look,
     pub(crate) face: u32,
+}
+
+impl Met<'_> {
+    /// The surface there from close by.
+    pub(crate) fn skin(&self) -> Skin {
+        self.look.skin(self.own, self.mark)
+    }
 }
 
 /// Everything that rays may meet.
@@ -92,6 +103,11 @@ impl Set {
                             at: place(own),
                             normal: (turn * normal.normalize_or(Vec3::Y)).into(),
                             own: own.into(),
+                            mark: mesh
+                                .marks
+                                .get(corner as usize)
+                                .copied()
+                                .map_or(Vec4::ZERO, Vec4::from),
                         }
                     });
                     let [a, b, c] = corners.map(|corner| corner.at);
@@ -150,6 +166,7 @@ impl Set {
             flat,
             smooth,
             own: wa * a.own + wb * b.own + wc * c.own,
+            mark: wa * a.mark + wb * b.mark + wc * c.mark,
             turn: self.turns[self.thing[face as usize] as usize],
             look: &self.looks[triangle.look],
             face,

@@ -192,6 +192,8 @@ pub enum Grain {
     Cloudy,
     /// The fine roughness of a fresh face: small bumps at any angle.
     Broken,
+    /// A crack face of glass: mirror, mist and hackle as its [marks](RecordedMesh::marks) say, and as [`Grain::Broken`] where it has none.
+    Marked,
 }
 
 impl Default for SurfaceMaterial {
@@ -231,6 +233,9 @@ pub struct RecordedMesh {
     pub more_uvs: Vec<Vec<[f32; 2]>>,
     /// Linear colours (red, green, blue and opacity), which multiply those of the surfaces: none, or one per position.
     pub colors: Vec<[f32; 4]>,
+    /// Marks of cracks, for surfaces with [`Grain::Marked`]: none, or one row per position. The way that the crack has come in a straight line, m, in the
+    /// frame of the node, and one over the distance at which its mirror ends, 1/m; zeros where nothing is known.
+    pub marks: Vec<[f32; 4]>,
     /// The triangles, grouped by material.
     pub parts: Vec<MeshPart>,
 }

@@ -237,6 +237,9 @@ fn check_mesh(mesh: &RecordedMesh, surfaces: usize) -> Checked {
     per_position(&mesh.colors, count, || {
         format!("colours of the mesh \"{name}\"")
     })?;
+    per_position(&mesh.marks, count, || {
+        format!("marks of the mesh \"{name}\"")
+    })?;
     for (i, (&position, &normal)) in mesh.positions.iter().zip(&mesh.normals).enumerate() {
         finite_vector(position, || format!("position {i} of the mesh \"{name}\""))?;
         finite_vector(normal, || format!("normal {i} of the mesh \"{name}\""))?;

@@ -39,33 +39,32 @@ pub(crate) fn appearance(material: &str) -> Appearance {
         }
     };
     // Renderers that do not trace light draw clear bodies with some opacity and darker crack faces, so that shards can be told apart.
-    let clear = |outer: [f32; 4], inner: [f32; 4], ior: f32, left: [f32; 3], grain: Grain| {
+    let clear = |outer: [f32; 4], inner: [f32; 4], ior: f32, left: [f32; 3], grains: [Grain; 2]| {
         let part = |name: &str, color: [f32; 4], roughness: f32| SurfaceMaterial {
             transmission: 1.0,
             ior,
             double_sided: true,
             attenuation_color: left,
             attenuation_distance: COLOR_DEPTH,
-            grain,
+            grain: grains[0],
             ..plain(name, color, roughness)
-        };
-        let broken = match grain {
-            Grain::Even => Grain::Broken,
-            other => other,
         };
         Appearance {
             outside: part(
                 "outside",
                 outer,
-                if grain == Grain::Even { 0.02 } else { 0.2 },
+                if grains[0] == Grain::Even { 0.02 } else { 0.2 },
             ),
             crack_face: SurfaceMaterial {
-                grain: broken,
+                grain: grains[1],
                 ..part("crack face", inner, 0.25)
             },
             crack: ending(SurfaceMaterial {
                 thin: true,
-                grain: Grain::Broken,
+                grain: match grains[1] {
+                    Grain::Marked => Grain::Marked,
+                    _ => Grain::Broken,
+                },
                 ..part("crack", [0.9, 0.95, 0.95, 0.45], 0.25)
             }),
             crack_line: ending(plain("crack line", [0.75, 0.82, 0.80, 1.0], 0.6)),
@@ -88,28 +87,28 @@ pub(crate) fn appearance(material: &str) -> Appearance {
             [0.16, 0.42, 0.38, 0.9],
             1.52,
             [0.46, 0.80, 0.68],
-            Grain::Even,
+            [Grain::Even, Grain::Marked],
         ),
         "pmma" => clear(
             [0.85, 0.88, 0.92, 0.35],
             [0.55, 0.62, 0.70, 0.9],
             1.49,
             [0.82, 0.88, 0.95],
-            Grain::Even,
+            even,
         ),
         "ice" => clear(
             [0.75, 0.87, 0.95, 0.55],
             [0.85, 0.93, 0.98, 0.95],
             1.31,
             [0.70, 0.86, 0.95],
-            Grain::Cloudy,
+            [Grain::Cloudy; 2],
         ),
         "sugar" => clear(
             [0.80, 0.48, 0.16, 0.6],
             [0.62, 0.30, 0.06, 0.95],
             1.5,
             [0.80, 0.36, 0.06],
-            Grain::Cloudy,
+            [Grain::Cloudy; 2],
         ),
         "porcelain" => opaque([0.86, 0.86, 0.84], [0.74, 0.70, 0.64], 0.16, even),
         "piggy" | "piggy-fig4" => opaque([0.85, 0.45, 0.45], [0.75, 0.62, 0.55], 0.25, even),

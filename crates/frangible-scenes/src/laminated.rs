@@ -95,12 +95,12 @@ pub(crate) fn shop_front() -> Result<Scene, SceneError> {
     scene.throw(Projectile {
         material: "stone".into(),
         at: Vec3::new(0.1, -0.2, 0.0),
-        ..Projectile::ball(3.0, 0.065, 11.0)
+        ..Projectile::ball(3.0, 0.065, 16.0)
     });
     Ok(scene)
 }
 
-/// A table's top of 5 mm, a film of 0.76 mm and 5 mm on a rim, and a ball that falls on it.
+/// A table's top of 5 mm, a film of 0.76 mm and 5 mm on a rim, and a ball thrown down on it.
 pub(crate) fn table_top() -> Result<Scene, SceneError> {
     let size = [1.0, 0.6, 0.01076];
     let top = BodySpec {
@@ -113,7 +113,8 @@ pub(crate) fn table_top() -> Result<Scene, SceneError> {
     };
     let mut scene = Scene {
         name: "table-top".into(),
-        summary: "the laminated top of a table, on a rim, and a steel ball that falls on it".into(),
+        summary: "the laminated top of a table, on a rim, and a steel ball thrown down on it"
+            .into(),
         look_from: Vec3::new(0.3, 0.6, 1.0),
         duration: 1.5,
         ..Scene::one_body(top)
@@ -121,7 +122,7 @@ pub(crate) fn table_top() -> Result<Scene, SceneError> {
     scene.throw(Projectile {
         at: Vec3::new(0.1, 0.05, 0.00538),
         toward: Vec3::NEG_Y,
-        ..Projectile::ball(4.0, 0.05, 6.0)
+        ..Projectile::ball(4.0, 0.05, 12.0)
     });
     Ok(scene)
 }

@@ -33,6 +33,7 @@ mod laminated;
 mod launch;
 mod light;
 mod live;
+mod marks;
 mod meshes;
 mod output;
 mod overlap;

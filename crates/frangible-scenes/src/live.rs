@@ -20,6 +20,7 @@ use frangible_sound::Sounding;
 use crate::bake::BakedBody;
 use crate::cracks::with_cracks;
 use crate::error::SceneError;
+use crate::marks::Marks;
 use crate::meshes::{BodySurfaces, origin, piece};
 use crate::recorder::{Role, piece_sounding};
 use crate::run::resist_rolling;
@@ -229,6 +230,7 @@ impl LiveScene {
         let Some(parent) = parent else { return };
         let of = Arc::clone(&self.things[parent]);
         let Some(surfaces) = &of.surfaces else { return };
+        let marks = Marks::of(&event.fracture.report, &event.asset, None);
         for (i, (fragment, &handle)) in event
             .fracture
             .fragments
@@ -237,7 +239,8 @@ impl LiveScene {
             .enumerate()
         {
             let name = format!("{} piece {}", of.name, i + 1);
-            let mesh = piece(&name, fragment, origin(&event.asset), surfaces).mesh;
+            let mut mesh = piece(&name, fragment, origin(&event.asset), surfaces).mesh;
+            marks.lay_on(&mut mesh, fragment.mass.centre.as_vec3(), surfaces);
             self.things.push(Arc::new(Thing {
                 name,
                 kind: ThingKind::Piece {

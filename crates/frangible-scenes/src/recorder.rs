@@ -17,6 +17,7 @@ use frangible_sound::{Sounding, recorded_blow};
 
 use crate::cameras::cameras;
 use crate::cracks::with_cracks;
+use crate::marks::Marks;
 use crate::meshes::{BodySurfaces, DrawnPiece, origin, piece};
 use crate::output::{Simplified, WANTED_OF_DRAWN};
 use crate::touching::WorldTouching;
@@ -54,6 +55,8 @@ pub(crate) struct Recorder {
     tracked: Vec<Tracked>,
     /// The node of each rigid body.
     node_of_body: BTreeMap<(u32, u32), usize>,
+    /// Marks of the cracks of each rigid body, and the place of its frame in theirs, m.
+    marks: BTreeMap<(u32, u32), (Arc<Marks>, Vec3)>,
     touching: WorldTouching,
     break_frame: Option<usize>,
     /// Frame in which cracks first ran that parted nothing.
@@ -75,6 +78,7 @@ impl Recorder {
             soundings: Vec::new(),
             tracked: Vec::new(),
             node_of_body: BTreeMap::new(),
+            marks: BTreeMap::new(),
             touching: WorldTouching::default(),
             break_frame: None,
             crack_frame: None,
@@ -157,6 +161,7 @@ impl Recorder {
     ) {
         self.break_frame.get_or_insert(self.recording.frame_count);
         let first = self.recording.nodes.len();
+        let marks = self.marked(event.parent, &event.asset, &event.fracture.report);
         if generation == 0 && surfaces.light.is_some() {
             let drawn = event.asset.render();
             self.simplified.wanted += WANTED_OF_DRAWN * drawn.map_or(0, |r| r.triangles.len());
@@ -169,9 +174,17 @@ impl Recorder {
             .enumerate()
         {
             let name = piece_name(name, generation, i);
-            let DrawnPiece { mesh, simplified } =
-                piece(&name, fragment, origin(&event.asset), surfaces);
+            let DrawnPiece {
+                mut mesh,
+                simplified,
+            } = piece(&name, fragment, origin(&event.asset), surfaces);
             self.simplified.add(&simplified);
+            let centre = fragment.mass.centre.as_vec3();
+            marks.lay_on(&mut mesh, centre, surfaces);
+            if !marks.is_empty() {
+                let known = (Arc::clone(&marks), centre);
+                self.marks.insert(body.into_raw_parts(), known);
+            }
             let extras = vec![
                 ("mass_kg".into(), fragment.mass.mass),
                 ("volume_m3".into(), fragment.mass.volume),
@@ -187,6 +200,13 @@ impl Recorder {
             time,
             pieces,
         );
+    }
+
+    /// The marks of all cracks of a body after an impact.
+    fn marked(&self, body: RigidBodyHandle, asset: &Asset, report: &ImpactReport) -> Arc<Marks> {
+        let before = self.marks.get(&body.into_raw_parts());
+        let before = before.map(|(marks, centre)| (&**marks, -*centre));
+        Arc::new(Marks::of(report, asset, before))
     }
 
     /// Takes in a blow on a body that was tracked when it came, `time` s after the first frame, with the nodes of its pieces.
@@ -210,7 +230,7 @@ impl Recorder {
         &mut self,
         body: RigidBodyHandle,
         asset: &Asset,
-        state: &BodyState,
+        (state, report): (&BodyState, &ImpactReport),
         surfaces: &BodySurfaces,
     ) {
         let Some(&node) = self.node_of_body.get(&body.into_raw_parts()) else {
@@ -218,9 +238,14 @@ impl Recorder {
         };
         let recording = &self.recording;
         let plain = self.tracked[node].plain;
-        let Some(mesh) = with_cracks(&recording.meshes[plain], asset, state, surfaces) else {
+        let Some(mut mesh) = with_cracks(&recording.meshes[plain], asset, state, surfaces) else {
             return;
         };
+        let marks = self.marked(body, asset, report);
+        marks.lay_on(&mut mesh, Vec3::ZERO, surfaces);
+        self.marks
+            .insert(body.into_raw_parts(), (marks, Vec3::ZERO));
+        let recording = &self.recording;
         self.crack_frame.get_or_insert(recording.frame_count);
         let RecordedNode {
             name, keep_extras, ..

@@ -94,7 +94,8 @@ pub fn play(
                 let generation = world.breakable(held.body).map_or(0, |b| b.generation());
                 let surfaces = &bodies[*body].surfaces;
                 if let (Some(state), Some(body)) = (&held.state, world.breakable(held.body)) {
-                    recorder.cracked(held.body, body.asset(), state, surfaces);
+                    let found = (state, &held.report);
+                    recorder.cracked(held.body, body.asset(), found, surfaces);
                 }
                 let (contacts, report) = (&held.contacts, &held.report);
                 // A resting load is no blow.

@@ -248,13 +248,14 @@ macro_rules! choices {
 }
 
 /// All grains.
-const GRAINS: [Grain; 6] = [
+const GRAINS: [Grain; 7] = [
     Grain::Even,
     Grain::Clay,
     Grain::Aggregate,
     Grain::Veined,
     Grain::Cloudy,
     Grain::Broken,
+    Grain::Marked,
 ];
 
 choices! {

@@ -105,7 +105,7 @@ pub mod stress {
 
 pub use crate::asset::AssetFileError;
 pub use crate::config::{DurationModel, Model};
-pub use crate::crack::ShownStress;
+pub use crate::crack::{CrackMark, ShownStress};
 pub use crate::fields::{Factors, Fields};
 #[doc(hidden)]
 pub use crate::fragment::{CutEdge, interfaces_of_labels, pieces_of_cuts};

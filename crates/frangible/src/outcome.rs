@@ -6,7 +6,7 @@ use glam::{DVec3, Vec3};
 
 use crate::blow::Blow;
 use crate::body::Body;
-use crate::crack::{CrackSystem, Peak};
+use crate::crack::{CrackMark, CrackSystem, Peak};
 use crate::fragment::Breakup;
 use crate::motion::Motion;
 use crate::state::BodyState;
@@ -198,6 +198,9 @@ pub struct ImpactReport {
     /// order of growth.
     #[doc(hidden)]
     pub arrivals: Vec<Vec<(u32, f64)>>,
+    /// Marks on the faces of the new cracks, in the order of `arrivals`; none in materials other than glass.
+    #[doc(hidden)]
+    pub marks: Vec<CrackMark>,
     /// Report of each contact, if the blow was integrated.
     pub contacts: Vec<ContactReport>,
     /// Energy balance of the blow, if it was integrated.
@@ -252,6 +255,7 @@ impl ImpactReport {
         self.crack_area = system.area;
         self.fracture_energy = system.ledger.spent();
         self.arrivals = system.arrivals();
+        self.marks = system.marks(body);
     }
 }
 

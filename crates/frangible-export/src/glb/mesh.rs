@@ -13,13 +13,13 @@ use serde_json::value::{RawValue, to_raw_value};
 use super::binary::{push_indices, push_rows};
 use super::quantized::{Dequantized, push_colors, push_normals, push_positions};
 use crate::ExportError;
-use frangible_recording::{RecordedMesh, SurfaceMaterial};
+use frangible_recording::{Grain, RecordedMesh, SurfaceMaterial};
 
 /// A mesh of the file, and its place in its node, if its positions are quantised.
 pub(super) type Pushed = (json::Index<json::Mesh>, Option<Dequantized>);
 
 /// Adds a mesh: one primitive per part, all on the same vertices. `None` if it
-/// has no triangle, as glTF knows no empty mesh.
+/// has no triangle, as glTF knows no empty mesh. Primitives of marked crack faces have the marks as the attribute `_MARK`.
 pub(super) fn push_mesh(
     root: &mut json::Root,
     binary: &mut Vec<u8>,
@@ -58,6 +58,8 @@ pub(super) fn push_mesh(
         true => push_colors(root, binary, &mesh.colors),
         false => push_rows(root, binary, &mesh.colors, Some(ArrayBuffer), false),
     });
+    let marks = (!mesh.marks.is_empty())
+        .then(|| push_rows(root, binary, &mesh.marks, Some(ArrayBuffer), false));
     let mut primitives = Vec::with_capacity(mesh.parts.len());
     for part in mesh.parts.iter().filter(|part| !part.indices.is_empty()) {
         let surface = surfaces.get(part.surface);
@@ -69,6 +71,9 @@ pub(super) fn push_mesh(
         let sets = uvs.into_iter().chain(more_uvs.iter().copied());
         attributes.extend((0..).map(|set| Valid(Semantic::TexCoords(set))).zip(sets));
         attributes.extend(colors.map(|colors| (Valid(Semantic::Colors(0)), colors)));
+        let is_marked = surface.is_some_and(|s| s.grain == Grain::Marked);
+        let marks = marks.filter(|_| is_marked);
+        attributes.extend(marks.map(|marks| (Valid(Semantic::Extras("MARK".into())), marks)));
         primitives.push(Primitive {
             attributes,
             extensions: None,

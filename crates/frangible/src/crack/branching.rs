@@ -30,7 +30,7 @@ const ANGLE: f32 = std::f32::consts::FRAC_PI_3;
 pub(super) const APART: f32 = 1.0;
 
 /// A crack that took this many times as long as it needs at its speed has waited for energy: it is slow, and does not fork.
-const SLOWEST: f64 = 2.0;
+pub(super) const SLOWEST: f64 = 2.0;
 
 /// A place where a crack leaves another one.
 pub(super) struct Fork {
@@ -61,20 +61,12 @@ pub(super) fn forks(
     }
     let enough = constant(system.resistance.toughness.of(cut.tet), material);
     let wall = felt.wall.as_ref().map(|(wall, _)| wall);
-    let tension = |stress: &Symmetric3, n: Vec3| f64::from(n.dot(stress.times(n)));
     let (stress, opposite) = felt.on_face(cut.opens);
     let before = tension(&stress, cut.direction);
     if before <= 0.0 {
         return None;
     }
-    let run = Run {
-        length: f64::from(run),
-        wall: wall.zip(opposite).map(|(wall, opposite)| BentWall {
-            thickness: f64::from(wall.thickness()),
-            bending: (0.5 - 0.5 * tension(&opposite, cut.direction) / before).clamp(0.0, 1.0),
-            through: felt.opening(cut.direction, material.poisson_ratio) / before,
-        }),
-    };
+    let (run, _) = Run::of(felt, cut, f64::from(run), material.poisson_ratio);
     let forks = |tension: f64| run.intensity(tension) >= enough;
     // No release raises the tension: most fronts end here.
     if !forks(before) {
@@ -128,8 +120,13 @@ fn constant(fracture_energy: f64, material: &Material) -> f64 {
     material.branching_constant * (fracture_energy * material.contact_modulus()).sqrt()
 }
 
+/// Tension across a plane of this unit normal, Pa.
+fn tension(stress: &Symmetric3, normal: Vec3) -> f64 {
+    f64::from(normal.dot(stress.times(normal)))
+}
+
 /// Run of a crack: its length, and the wall that it runs in.
-struct Run {
+pub(super) struct Run {
     /// Distance from where the crack started or forked last, m.
     length: f64,
     /// The wall that it runs in; none in a solid.
@@ -147,12 +144,30 @@ struct BentWall {
 }
 
 impl Run {
+    /// The run of a crack that cuts a tetrahedron so far from its start, m, and the tension across it there, Pa.
+    pub(super) fn of(
+        felt: &Felt,
+        cut: &ElementCut,
+        length: f64,
+        poisson_ratio: f64,
+    ) -> (Self, f64) {
+        let (stress, opposite) = felt.on_face(cut.opens);
+        let before = tension(&stress, cut.direction);
+        let wall = felt.wall.as_ref().map(|(wall, _)| wall);
+        let wall = wall.zip(opposite).map(|(wall, opposite)| BentWall {
+            thickness: f64::from(wall.thickness()),
+            bending: (0.5 - 0.5 * tension(&opposite, cut.direction) / before).clamp(0.0, 1.0),
+            through: felt.opening(cut.direction, poisson_ratio) / before,
+        });
+        (Self { length, wall }, before)
+    }
+
     /// Stress intensity at the face under a tension σ there, Pa, over that of half a penny of unit radius under unit tension in a solid: Pa √m.
     ///
     /// In a solid it is σ √r after a run r. In a wall the half penny feels the face behind it, and the tension of bending falls with the depth
     /// (J. C. Newman, I. S. Raju, Engng Fracture Mech. 15 (1981) 185, for equal half axes). A crack that is longer than the wall is
     /// thick may go through it, and then feels the part of σ that opens it along its whole front; the larger of the two counts.
-    fn intensity(&self, tension: f64) -> f64 {
+    pub(super) fn intensity(&self, tension: f64) -> f64 {
         let Some(wall) = &self.wall else {
             return tension * self.length.sqrt();
         };
@@ -245,6 +260,7 @@ pub(super) fn start(
         values,
         direction: fork.normal,
         opens: cut.opens,
+        mirror: f32::INFINITY,
         time: cut.time + f64::from(distance) / (speed * material.rayleigh_speed()),
     };
     let from = Source {

@@ -214,6 +214,7 @@ fn try_start(system: &mut CrackSystem, field: &mut StressField, suspect: &Suspec
             values,
             direction,
             opens: field.opens(e as usize),
+            mirror: f32::INFINITY,
             time: now,
         },
         &Entered::at_start(Source {

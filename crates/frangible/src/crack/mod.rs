@@ -19,6 +19,8 @@
 //! the strength. All positions on all nearby cracks are evaluated, eight at a time. In an integrated blow, a separated piece moves independently,
 //! or comes to rest as a whole if it is small (`crate::blow`, `rest.rs`).
 //!
+//! *Marks* (`marks.rs`). In glass each cut keeps where the mirror of its crack ends.
+//!
 //! *Existing cracks* (`crate::tips`). The front of a crack from an earlier impact follows Griffith's criterion: the energy of a crack of
 //! centimetres comes from a layer of depth 2πa, where a is its area divided by the length of its front. Cracks that are included in a piece's own
 //! modes release no further stress.
@@ -33,6 +35,7 @@ mod field;
 mod film;
 mod initiation;
 mod ledger;
+mod marks;
 mod node_values;
 mod passing;
 mod propagation;
@@ -55,6 +58,7 @@ mod weak_stress;
 pub(crate) use cuts::Known;
 pub(crate) use field::StressField;
 pub(crate) use initiation::{Peak, crack};
+pub use marks::CrackMark;
 use propagation::{advance, retry};
 pub use shown::ShownStress;
 pub(crate) use single::{Crack, ElementCut};

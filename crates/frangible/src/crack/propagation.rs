@@ -120,6 +120,7 @@ fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
         values: crossing.values,
         direction,
         opens,
+        mirror: f32::INFINITY,
         time: match system.config.is_paper() {
             false => front.arrival,
             true => crossing.from.time,
@@ -140,6 +141,7 @@ fn enter(system: &mut CrackSystem, field: &mut StressField, front: Front) {
         Payment::Now { gain } => {
             let fork = forks(system, &front, &cut, &felt);
             let entered = crossing.entered(&front, &cut);
+            let cut = system.marked(front.crack, cut, &felt);
             system.fracture(front.crack, cut, &entered, area, gain);
             if let Some(fork) = fork
                 && start(system, field, front.crack, &cut, &fork)

@@ -129,6 +129,8 @@ pub(crate) struct ElementCut {
     pub(crate) direction: Vec3,
     /// Outward normal of the face of the wall that the crack opens from; zero in a solid, and of a crack that was there before.
     pub(crate) opens: Vec3,
+    /// [Radius of its mirror](super::marks::CrackMark), m; infinite of a crack that leaves none, and where one starts.
+    pub(crate) mirror: f32,
     /// Time at which it joined, s after the contact began.
     pub(crate) time: f64,
 }

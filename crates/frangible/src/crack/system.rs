@@ -158,6 +158,7 @@ impl<'a> CrackSystem<'a> {
                 values: cut.values,
                 direction: cut.direction,
                 opens: Vec3::ZERO,
+                mirror: f32::INFINITY,
                 time: f64::NEG_INFINITY,
             };
             self.join(id, cut, 0.0);
