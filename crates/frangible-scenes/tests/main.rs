@@ -8,6 +8,7 @@ mod culling;
 mod energy;
 mod fields;
 mod files_given;
+mod fine;
 mod first_break;
 mod framing;
 mod game;

@@ -136,6 +136,7 @@ fn an_intricate_scene_survives_writing_and_reading() {
     assert_eq!(absolute(&text).unwrap(), scene, "{text}");
     scene.fracture = FractureConfig::default();
     scene.fracture.load_duration = 1.0 / 3.0;
+    scene.output.drawing = frangible_scenes::Drawing::Fine;
     scene.floor = Some("wood".into());
     let text = scene_to_toml(&scene);
     assert_eq!(absolute(&text).unwrap(), scene, "{text}");
