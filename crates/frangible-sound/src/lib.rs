@@ -53,7 +53,6 @@ mod air;
 mod bank;
 mod block;
 mod body;
-mod complex;
 mod config;
 mod damping;
 mod ellipsoid;

@@ -1,6 +1,7 @@
 //! A force over time, and the exact response of an oscillator to it.
 
-use crate::complex::Complex;
+use num_complex::Complex64;
+
 use crate::error::{SoundError, finite, within};
 
 /// A force over time, with linear interpolation between values.
@@ -108,11 +109,11 @@ impl SoundPulse {
     }
 
     /// ∫ F e^{−λt} dt: what the whole pulse gives an oscillator of this pole, seen from the pulse's beginning.
-    pub(crate) fn spectrum(&self, pole: Complex) -> Complex {
+    pub(crate) fn spectrum(&self, pole: Complex64) -> Complex64 {
         let long = self.duration();
         // One step over all of it, from before the beginning to the end, and back.
         let all = Drive::new(self, pole, 2.0 * long, long).step();
-        all * pole.scaled(-long).exp()
+        all * pole.scale(-long).exp()
     }
 }
 
@@ -132,37 +133,37 @@ pub(crate) fn half_sine_share(frequency: f64, duration: f64) -> f64 {
 /// the forced motion −F/λ − F'/λ² that is all of z.
 pub(crate) struct Drive<'a> {
     pulse: &'a SoundPulse,
-    pole: Complex,
-    inverse: Complex,
-    inverse_square: Complex,
+    pole: Complex64,
+    inverse: Complex64,
+    inverse_square: Complex64,
     /// e^{λT} and T, s.
-    decay: Complex,
+    decay: Complex64,
     tick: f64,
     /// Time of the sample to come since the beginning of the pulse, s.
     time: f64,
     /// The next corner.
     corner: usize,
     /// e^{−λΔ} from one corner to the next.
-    between: Complex,
-    forced: Complex,
+    between: Complex64,
+    forced: Complex64,
 }
 
 impl<'a> Drive<'a> {
     /// Begins with the sample that comes `first` seconds after the beginning of the pulse, zero or later; the one before came `tick` seconds
     /// earlier, when the pulse may have begun already.
-    pub(crate) fn new(pulse: &'a SoundPulse, pole: Complex, tick: f64, first: f64) -> Self {
-        let inverse = pole.inverse();
+    pub(crate) fn new(pulse: &'a SoundPulse, pole: Complex64, tick: f64, first: f64) -> Self {
+        let inverse = pole.inv();
         let mut drive = Self {
             pulse,
             pole,
             inverse,
             inverse_square: inverse * inverse,
-            decay: pole.scaled(tick).exp(),
+            decay: pole.scale(tick).exp(),
             tick,
             time: first,
             corner: 0,
-            between: pole.scaled(-pulse.time_step).exp(),
-            forced: Complex::default(),
+            between: pole.scale(-pulse.time_step).exp(),
+            forced: Complex64::default(),
         };
         let before = first - tick;
         if before >= 0.0 {
@@ -177,27 +178,27 @@ impl<'a> Drive<'a> {
         ((time / self.pulse.time_step) as usize + 1).min(self.pulse.force.len() + 1)
     }
 
-    fn forced_at(&self, time: f64) -> Complex {
+    fn forced_at(&self, time: f64) -> Complex64 {
         let (force, slope) = self.pulse.at(time);
-        self.inverse.scaled(-force) + self.inverse_square.scaled(-slope)
+        self.inverse.scale(-force) + self.inverse_square.scale(-slope)
     }
 
     /// Returns the sum for the next sample.
-    pub(crate) fn step(&mut self) -> Complex {
+    pub(crate) fn step(&mut self) -> Complex64 {
         let (pulse, until) = (self.pulse, self.corners_until(self.time));
-        let mut sum = Complex::default();
+        let mut sum = Complex64::default();
         if self.corner < until {
             let begun = self.corner as f64 * pulse.time_step;
-            let mut since = self.pole.scaled(self.time - begun).exp();
+            let mut since = self.pole.scale(self.time - begun).exp();
             for k in self.corner..until {
                 let last = k == pulse.force.len();
                 let before = if k == 0 { 0.0 } else { pulse.slope(k - 1) };
-                let mut corner = self.inverse_square.scaled(pulse.slope(k) - before);
+                let mut corner = self.inverse_square.scale(pulse.slope(k) - before);
                 if last {
-                    corner = corner + self.inverse.scaled(-pulse.value(k));
+                    corner += self.inverse.scale(-pulse.value(k));
                 }
-                sum = sum + since * corner;
-                since = since * self.between;
+                sum += since * corner;
+                since *= self.between;
             }
             self.corner = until;
         }

@@ -12,9 +12,9 @@
 //! finer than [`MOST_DEGREE`](crate::MOST_DEGREE).
 
 use glam::{DMat3, DQuat, DVec3};
+use num_complex::Complex64;
 
 use crate::air::{AIR_DENSITY, SPEED_OF_SOUND};
-use crate::complex::Complex;
 use crate::ellipsoid::moved_air;
 use crate::error::{SoundError, within};
 use crate::waves::{HARMONICS, degree, efficiencies, hankel, hankel_slopes, harmonics};
@@ -170,14 +170,14 @@ impl EquivalentSphere {
 
     /// Pressure per velocity of each degree at a distance of the centre, m, complex, Pa·s/m, for an angular frequency, rad/s. The delay of the
     /// way from the sphere's surface is left out. Nearer than the surface counts as on it.
-    pub(crate) fn waves(&self, frequency: f64, distance: f64) -> Vec<Complex> {
+    pub(crate) fn waves(&self, frequency: f64, distance: f64) -> Vec<Complex64> {
         let k = frequency / SPEED_OF_SOUND;
         let there = hankel(k * distance.max(self.radius));
         let here = hankel_slopes(k * self.radius);
         // −iρc h_l(kr)/h_l'(ka), the phase e^{−ik(r−a)} left out.
-        let impedance = Complex::new(0.0, -AIR_DENSITY * SPEED_OF_SOUND);
+        let impedance = Complex64::new(0.0, -AIR_DENSITY * SPEED_OF_SOUND);
         (there.iter().zip(here))
-            .map(|(&h, slope)| impedance * h * slope.inverse())
+            .map(|(&h, slope)| impedance * h * slope.inv())
             .collect()
     }
 }

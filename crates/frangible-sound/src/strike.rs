@@ -4,9 +4,9 @@ use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 use glam::Vec3;
+use num_complex::Complex64;
 
 use crate::body::SoundBody;
-use crate::complex::Complex;
 use crate::error::{SoundError, finite};
 use crate::of_asset::HIGHEST;
 use crate::pulse::{SoundPulse, half_sine_share};
@@ -57,7 +57,7 @@ impl Strike {
         let modes = body.modes.iter().zip(&self.push);
         let energy = modes.filter_map(|(mode, &push)| {
             let given = self.pulse.spectrum(pole(mode.frequency, 0.0)?);
-            Some(0.5 * f64::from(push).powi(2) * given.norm_squared())
+            Some(0.5 * f64::from(push).powi(2) * given.norm_sqr())
         });
         energy.sum()
     }
@@ -137,7 +137,7 @@ pub const CRACK_SHARE: f64 = 0.03;
 pub const CRACK_SPEED: f64 = 0.4;
 
 /// λ of a mode: frequency, Hz, and loss of energy, 1/s. `None` where it does not swing even twice before it is gone.
-pub(crate) fn pole(frequency: f64, loss: f64) -> Option<Complex> {
+pub(crate) fn pole(frequency: f64, loss: f64) -> Option<Complex64> {
     let (omega, half) = (TAU * frequency, 0.5 * loss);
-    (half < 0.3 * omega).then(|| Complex::new(-half, (omega * omega - half * half).sqrt()))
+    (half < 0.3 * omega).then(|| Complex64::new(-half, (omega * omega - half * half).sqrt()))
 }

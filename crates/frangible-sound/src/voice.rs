@@ -6,10 +6,10 @@ mod ring;
 use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
+use num_complex::Complex64;
 
 use crate::bank::{BLOCK, LANES, Lanes};
 use crate::body::SoundBody;
-use crate::complex::Complex;
 use crate::listener::Ways;
 use crate::strike::{Strike, pole};
 use crate::waves::{MOST_DEGREE, degree, harmonics};
@@ -40,10 +40,10 @@ pub(crate) struct Voice {
     place: DVec3,
     rotation: DQuat,
     /// Pressure per velocity of each degree, of each mode; and the distance they are for.
-    waves: Vec<[Complex; MOST_DEGREE + 1]>,
+    waves: Vec<[Complex64; MOST_DEGREE + 1]>,
     waves_distance: f64,
     /// G of each mode, Pa√kg·s/m.
-    gains: Vec<Complex>,
+    gains: Vec<Complex64>,
     lanes: Vec<Lanes>,
     pub(crate) slots: Vec<Slot>,
     hits: Vec<Hit>,
@@ -153,8 +153,9 @@ impl Voice {
             let each = waves
                 .iter()
                 .zip(sums)
-                .map(|(wave, sum)| wave.scaled(scale * sum));
-            self.gains.push(each.fold(Complex::default(), |a, b| a + b));
+                .map(|(wave, sum)| wave.scale(scale * sum));
+            self.gains
+                .push(each.fold(Complex64::default(), |a, b| a + b));
         }
     }
 
@@ -190,13 +191,13 @@ impl Voice {
             };
             let gain = self.gains[i];
             let given =
-                f64::from(push.abs()) * strike.pulse.spectrum(Complex::new(0.0, pole.im)).norm();
+                f64::from(push.abs()) * strike.pulse.spectrum(Complex64::new(0.0, pole.im)).norm();
             let expected = (gain.norm() * given) as f32;
             if slot_of[i] != u32::MAX {
                 let slot = &mut self.slots[slot_of[i] as usize];
                 slot.expected = slot.expected.max(expected);
             } else if expected > SILENCE {
-                self.add_slot(i, pole.scaled(1.0 / room.rate).exp(), gain, expected);
+                self.add_slot(i, pole.scale(1.0 / room.rate).exp(), gain, expected);
             }
         }
         let (ways, distance) = (self.ways_out(room), room.listener.distance(self.place));
@@ -204,7 +205,7 @@ impl Voice {
             .push(Hit::new(start, strike, &body, ways, distance));
     }
 
-    fn add_slot(&mut self, mode: usize, turn: Complex, gain: Complex, expected: f32) {
+    fn add_slot(&mut self, mode: usize, turn: Complex64, gain: Complex64, expected: f32) {
         let (i, k) = (self.slots.len() / LANES, self.slots.len() % LANES);
         if k == 0 {
             self.lanes.push(Lanes::default());

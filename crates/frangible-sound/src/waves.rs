@@ -1,8 +1,7 @@
 //! Spherical harmonics and outgoing spherical waves.
 
 use glam::DVec3;
-
-use crate::complex::Complex;
+use num_complex::Complex64;
 
 /// Highest degree l of the spherical harmonics that represent a mode's surface motion. A sphere of radius a radiates degree l efficiently
 /// from k a ≈ l on, so that this degree suffices up to 6.5 kHz for a radius of 5 cm; above, the finest pattern of a mode is omitted.
@@ -58,34 +57,34 @@ pub fn harmonics(direction: DVec3) -> [f64; HARMONICS] {
 
 /// h_l(x) e^{ix} for l = 0 to [`MOST_DEGREE`] + 1: spherical Hankel functions of the second kind, which go outwards in time e^{+iωt},
 /// without the phase of the way. By their finite sum, which loses no digits at any x.
-pub(crate) fn hankel(x: f64) -> [Complex; MOST_DEGREE + 2] {
+pub(crate) fn hankel(x: f64) -> [Complex64; MOST_DEGREE + 2] {
     std::array::from_fn(|l| {
         // i^{l+1}/x Σ_m (−i)^m (l+m)! / (m! (l−m)! (2x)^m)
-        let (mut sum, mut term) = (Complex::default(), Complex::ONE);
+        let (mut sum, mut term) = (Complex64::default(), Complex64::ONE);
         for m in 0..=l {
-            sum = sum + term;
+            sum += term;
             let (a, b) = ((l + m + 1) as f64, (l - m) as f64);
             // Times −i (l+m+1)(l−m) / ((m+1) 2x).
             let factor = a * b / ((m + 1) as f64 * 2.0 * x);
-            term = Complex::new(term.im, -term.re).scaled(factor);
+            term = Complex64::new(term.im, -term.re).scale(factor);
         }
-        let mut value = sum.scaled(1.0 / x);
+        let mut value = sum.scale(1.0 / x);
         for _ in 0..=l {
-            value = value.turned();
+            value = Complex64::new(-value.im, value.re);
         }
         value
     })
 }
 
 /// h_l'(x) e^{ix} for l = 0 to [`MOST_DEGREE`].
-pub(crate) fn hankel_slopes(x: f64) -> [Complex; MOST_DEGREE + 1] {
+pub(crate) fn hankel_slopes(x: f64) -> [Complex64; MOST_DEGREE + 1] {
     let h = hankel(x);
-    std::array::from_fn(|l| h[l].scaled(l as f64 / x) - h[l + 1])
+    std::array::from_fn(|l| h[l].scale(l as f64 / x) - h[l + 1])
 }
 
 /// Returns the radiation efficiency of each degree at k a = x: the power of a sphere of radius a that vibrates in a harmonic of this
 /// degree, relative to that of a plane wave of the same area and velocity. x²/(1+x²) for l = 0, x⁴/(4+x⁴) for l = 1.
 #[must_use]
 pub fn efficiencies(x: f64) -> [f64; MOST_DEGREE + 1] {
-    hankel_slopes(x).map(|slope| 1.0 / (x * x * slope.norm_squared()))
+    hankel_slopes(x).map(|slope| 1.0 / (x * x * slope.norm_sqr()))
 }

@@ -3,7 +3,7 @@
 //! The solution of `q̈ + d q̇ + λ q = sin(u t)` from rest: the forced motion `Im(X e^{iut})`, `X = 1/(λ − u² + i d u)`, and the
 //! free one `c₁ e^{ω₁ t} + c₂ e^{ω₂ t}` with the paper's complex ω that makes it start from rest.
 
-use std::ops::{Add, Div, Mul, Neg, Sub};
+use num_complex::Complex64;
 
 use crate::reference::body::Solid;
 use crate::reference::contact::{Force, damping};
@@ -32,99 +32,37 @@ pub(crate) fn forced(lambda: f64, d: f64, mut u: f64, t: f64) -> (f64, f64) {
         u *= 1.0 + 1e-7;
     }
     let (w1, w2) = roots(lambda, d);
-    let x = Complex::real(1.0) / Complex(lambda - u * u, d * u);
-    let at_rest = Complex::real(-u * x.0);
-    let c1 = (at_rest + w2 * Complex::real(x.1)) / (w1 - w2);
-    let c2 = -Complex::real(x.1) - c1;
-    let steady = x * Complex(0.0, u * t).exp();
+    let x = Complex64::from(1.0) / Complex64::new(lambda - u * u, d * u);
+    let at_rest = Complex64::from(-u * x.re);
+    let c1 = (at_rest + w2 * Complex64::from(x.im)) / (w1 - w2);
+    let c2 = -Complex64::from(x.im) - c1;
+    let steady = x * Complex64::new(0.0, u * t).exp();
     let (e1, e2) = (
-        c1 * (w1 * Complex::real(t)).exp(),
-        c2 * (w2 * Complex::real(t)).exp(),
+        c1 * (w1 * Complex64::from(t)).exp(),
+        c2 * (w2 * Complex64::from(t)).exp(),
     );
-    (steady.1 + (e1 + e2).0, u * steady.0 + (w1 * e1 + w2 * e2).0)
+    (
+        steady.im + (e1 + e2).re,
+        u * steady.re + (w1 * e1 + w2 * e2).re,
+    )
 }
 
 /// q of one mode a time `t` after it was left alone with this q and q̇.
 fn free(lambda: f64, d: f64, (q, v): (f64, f64), t: f64) -> f64 {
     let (w1, w2) = roots(lambda, d);
-    let c1 = (Complex::real(v) - w2 * Complex::real(q)) / (w1 - w2);
-    let c2 = Complex::real(q) - c1;
-    (c1 * (w1 * Complex::real(t)).exp() + c2 * (w2 * Complex::real(t)).exp()).0
+    let c1 = (Complex64::from(v) - w2 * Complex64::from(q)) / (w1 - w2);
+    let c2 = Complex64::from(q) - c1;
+    (c1 * (w1 * Complex64::from(t)).exp() + c2 * (w2 * Complex64::from(t)).exp()).re
 }
 
 /// ω = (−d ± √(d² − 4 λ)) / 2.
-fn roots(lambda: f64, d: f64) -> (Complex, Complex) {
-    let mut root = Complex::real(0.25 * d * d - lambda).sqrt();
+fn roots(lambda: f64, d: f64) -> (Complex64, Complex64) {
+    let mut root = Complex64::from(0.25 * d * d - lambda).sqrt();
     if root.norm() < 1e-7 * d {
-        root = Complex::real(1e-7 * d);
+        root = Complex64::from(1e-7 * d);
     }
-    let half = Complex::real(-0.5 * d);
+    let half = Complex64::from(-0.5 * d);
     (half + root, half - root)
-}
-
-#[derive(Clone, Copy)]
-struct Complex(f64, f64);
-
-impl Complex {
-    fn real(x: f64) -> Self {
-        Self(x, 0.0)
-    }
-
-    fn norm(self) -> f64 {
-        self.0.hypot(self.1)
-    }
-
-    fn exp(self) -> Self {
-        Self(self.1.cos(), self.1.sin()) * Self::real(self.0.exp())
-    }
-
-    /// The square root of a real number, imaginary where the number is negative.
-    fn sqrt(self) -> Self {
-        if self.0 < 0.0 {
-            Self(0.0, (-self.0).sqrt())
-        } else {
-            Self(self.0.sqrt(), 0.0)
-        }
-    }
-}
-
-impl Add for Complex {
-    type Output = Self;
-    fn add(self, b: Self) -> Self {
-        Self(self.0 + b.0, self.1 + b.1)
-    }
-}
-
-impl Sub for Complex {
-    type Output = Self;
-    fn sub(self, b: Self) -> Self {
-        Self(self.0 - b.0, self.1 - b.1)
-    }
-}
-
-impl Neg for Complex {
-    type Output = Self;
-    fn neg(self) -> Self {
-        Self(-self.0, -self.1)
-    }
-}
-
-impl Mul for Complex {
-    type Output = Self;
-    fn mul(self, b: Self) -> Self {
-        Self(self.0 * b.0 - self.1 * b.1, self.0 * b.1 + self.1 * b.0)
-    }
-}
-
-impl Div for Complex {
-    type Output = Self;
-    fn div(self, b: Self) -> Self {
-        let n = b.0 * b.0 + b.1 * b.1;
-        Self(
-            (self.0 * b.0 + self.1 * b.1) / n,
-            (self.1 * b.0 - self.0 * b.1) / n,
-        )
-    }
 }
 
 #[cfg(test)]

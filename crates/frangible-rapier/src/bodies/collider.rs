@@ -40,16 +40,20 @@ pub fn collision_shape(fragment: &Fragment, config: &WorldConfig) -> SharedShape
         true => config.small_pieces.hull_points.max(4),
         false => config.fragment_collider.hull_points.max(4),
     };
+    let alone = small || is_debris(fragment, config);
     let fills = |hull: &ConvexHull| {
         let ratio = f64::from(config.hull_volume_ratio);
-        small || is_debris(fragment, config) || hull.volume() <= ratio * fragment.mass.volume
+        alone || hull.volume() <= ratio * fragment.mass.volume
     };
     let drawn = (fragment.render.as_ref()).map_or(&[][..], |drawn| &drawn.positions);
     // A few corners tell most hollow pieces.
     let coarse = ConvexHull::new(positions, most.min(COARSE), within).filter(fills);
     if coarse.is_some() {
         // A round piece needs more corners than a part of it would.
-        let most = most.saturating_mul(config.fragment_collider.parts);
+        let most = match alone {
+            true => most,
+            false => most.saturating_mul(config.fragment_collider.parts),
+        };
         let whole = hulls_of_parts(vec![positions.clone()], drawn, most, within);
         let whole = whole.into_iter().find(fills);
         if let Some(shape) = whole.as_ref().and_then(solid) {

@@ -1,11 +1,11 @@
 //! A strike that has begun, and the motion of the body as a whole.
 
 use glam::DVec3;
+use num_complex::Complex64;
 
 use crate::air::{AIR_DENSITY, SPEED_OF_SOUND};
 use crate::bank::BLOCK;
 use crate::body::SoundBody;
-use crate::complex::Complex;
 use crate::pulse::Drive;
 use crate::strike::Strike;
 
@@ -19,14 +19,14 @@ pub(super) struct Hit {
     /// velocity, lacks it. Known once the resonators are chosen.
     pub(super) direct: Option<f64>,
     /// The motion as a whole: pressure per newton, Pa/N, times 1/s, straight to the listener and towards the floor; and its state.
-    shaken: [Complex; 2],
-    state: Complex,
+    shaken: [Complex64; 2],
+    state: Complex64,
 }
 
 /// The pole of a sphere that is shaken: (c/a)(−1 + i).
-fn shaken_pole(radius: f64) -> Complex {
+fn shaken_pole(radius: f64) -> Complex64 {
     let own = SPEED_OF_SOUND / radius;
-    Complex::new(-own, own)
+    Complex64::new(-own, own)
 }
 
 impl Hit {
@@ -42,7 +42,7 @@ impl Hit {
             start,
             direct: None,
             shaken: ways.map(|towards| Self::shaken(body, &strike, towards, distance)),
-            state: Complex::default(),
+            state: Complex64::default(),
             strike,
         }
     }
@@ -53,10 +53,10 @@ impl Hit {
     /// at s = (c/a)(−1 ± i). Chadwick, Zheng and James (ACM TOG 31(6), 2012) call it acceleration noise. Turning is silent, as a sphere's is.
     ///
     /// `towards` is the direction of the listener in the body's frame, `distance` its distance, m.
-    fn shaken(body: &SoundBody, strike: &Strike, towards: DVec3, distance: f64) -> Complex {
+    fn shaken(body: &SoundBody, strike: &Strike, towards: DVec3, distance: f64) -> Complex64 {
         let sphere = &body.sphere;
         if body.mass.is_infinite() {
-            return Complex::default();
+            return Complex64::default();
         }
         let r = distance.max(sphere.radius);
         let towards = sphere.axes.inverse() * towards.normalize_or_zero();
@@ -66,10 +66,10 @@ impl Hit {
             .sum();
         let own = SPEED_OF_SOUND / sphere.radius;
         let pole = shaken_pole(sphere.radius);
-        let near = Complex::new(1.0 / (r * r), 0.0) + pole.scaled(1.0 / (SPEED_OF_SOUND * r));
+        let near = Complex64::new(1.0 / (r * r), 0.0) + pole.scale(1.0 / (SPEED_OF_SOUND * r));
         let size = AIR_DENSITY * dipole / (2.0 * std::f64::consts::PI * body.mass);
         // (c/a)² / (λ − λ̄), λ − λ̄ = 2i c/a.
-        (near * Complex::new(0.0, -0.5 * own)).scaled(2.0 * size)
+        (near * Complex64::new(0.0, -0.5 * own)).scale(2.0 * size)
     }
 
     /// Adds the force that is heard at once, and the motion as a whole, straight and towards the floor.
@@ -80,7 +80,7 @@ impl Hit {
         }
         let past = (now + first as f64 - self.start) / rate;
         let pole = shaken_pole(radius);
-        let turn = pole.scaled(1.0 / rate).exp();
+        let turn = pole.scale(1.0 / rate).exp();
         let mut drive = Drive::new(&self.strike.pulse, pole, 1.0 / rate, past);
         let direct = self.direct.unwrap_or(0.0);
         for n in first..BLOCK {

@@ -1,7 +1,8 @@
 //! A block of a voice: its resonators, by themselves or under strikes on the body.
 
+use num_complex::Complex64;
+
 use crate::bank::{BLOCK, LANES, Sums, ring_block, total};
-use crate::complex::Complex;
 use crate::pulse::Drive;
 use crate::strike::pole;
 
@@ -73,7 +74,7 @@ impl Voice {
         let Some(pole) = pole(mode.frequency, mode.loss) else {
             return;
         };
-        let mut given = [Complex::default(); BLOCK];
+        let mut given = [Complex64::default(); BLOCK];
         for hit in self.hits.iter().filter(|hit| !hit.strike.push.is_empty()) {
             let push = f64::from(hit.strike.push[slot.mode as usize]);
             let first = (hit.start - now).ceil().max(0.0);
@@ -83,12 +84,12 @@ impl Voice {
             }
             let mut drive = Drive::new(&hit.strike.pulse, pole, 1.0 / rate, past);
             for given in &mut given[first as usize..] {
-                *given = *given + drive.step().scaled(push);
+                *given += drive.step().scale(push);
             }
         }
         let (lanes, k) = (&mut self.lanes[i / LANES], i % LANES);
-        let turn = pole.scaled(1.0 / rate).exp();
-        let mut z = Complex::new(f64::from(lanes.re[k]), f64::from(lanes.im[k]));
+        let turn = pole.scale(1.0 / rate).exp();
+        let mut z = Complex64::new(f64::from(lanes.re[k]), f64::from(lanes.im[k]));
         for (sum, given) in sums.iter_mut().zip(given) {
             z = turn * z + given;
             lanes.gain_re[k] += lanes.ramp_re[k];
