@@ -136,7 +136,7 @@ mod tests {
         (0..8).map(corner).collect()
     }
 
-    /// How far some of the hulls reach in a direction, m.
+    /// Largest extent of some of the hulls in a direction, m.
     fn reach(hulls: &[ConvexHull], direction: Vec3) -> f32 {
         let corners = hulls.iter().flat_map(|hull| &hull.corners);
         corners.map(|p| p.dot(direction)).fold(f32::MIN, f32::max)

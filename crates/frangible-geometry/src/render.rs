@@ -34,6 +34,38 @@ pub struct RenderMesh {
     pub material_of_triangle: Vec<u32>,
 }
 
+impl RenderMesh {
+    /// Adds a vertex of another mesh with all its attributes. Returns its number.
+    #[doc(hidden)]
+    pub fn push_vertex_of(&mut self, mesh: &Self, vertex: usize) -> u32 {
+        self.positions.push(mesh.positions[vertex]);
+        self.normals.push(mesh.normals[vertex]);
+        self.uvs.push(mesh.uvs[vertex]);
+        for (uvs, all) in self.more_uvs.iter_mut().zip(&mesh.more_uvs) {
+            uvs.push(all[vertex]);
+        }
+        self.colors.extend(mesh.colors.get(vertex));
+        self.positions.len() as u32 - 1
+    }
+
+    /// Adds a vertex of a crack face: further texture coordinates are zero, and the colour, if vertices have one, is white. Returns its number.
+    #[doc(hidden)]
+    pub fn push_inner_vertex(
+        &mut self,
+        position: Vec3,
+        normal: Vec3,
+        uv: [f32; 2],
+        has_colors: bool,
+    ) -> u32 {
+        self.positions.push(position);
+        self.normals.push(normal);
+        self.uvs.push(uv);
+        self.more_uvs.iter_mut().for_each(|uvs| uvs.push([0.0; 2]));
+        self.colors.extend(has_colors.then_some([1.0; 4]));
+        self.positions.len() as u32 - 1
+    }
+}
+
 /// Returns texture coordinates of a point by box projection, m: its two coordinates perpendicular to the axis closest to the face
 /// normal. Use the same normal for all corners of a triangle.
 ///

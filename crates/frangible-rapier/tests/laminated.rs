@@ -32,7 +32,7 @@ fn pane() -> &'static Arc<Asset> {
     })
 }
 
-/// What a blow by a ball of 5 kg leaves.
+/// State of the pane and of the ball of 5 kg after a blow.
 struct Left {
     pieces: usize,
     /// Films that hold after the break, and at the end.

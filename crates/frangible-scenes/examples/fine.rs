@@ -33,13 +33,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         return Err("the body holds".into());
     };
     let asset = first.body.asset();
-    let (mesh_edge, material) = (asset.fracture().mean_edge(), asset.material());
-    let fine = FineFaces {
-        edge: 0.25 * mesh_edge,
-        mesh_edge,
-        amplitude: material.roughness_amplitude as f32,
-        wavelength: material.roughness_wavelength as f32,
-    };
+    let material = asset.material();
+    let roughness = [material.roughness_amplitude, material.roughness_wavelength];
+    let fine = FineFaces::new(asset.fracture().mean_edge(), roughness);
     let meshes: Vec<_> = fracture.fragments.iter().map(drawn).collect();
     let (pieces, dividing) = fastest(|| -> Vec<RenderMesh> {
         let pieces = fracture.fragments.iter().zip(&meshes);

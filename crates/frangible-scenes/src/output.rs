@@ -33,9 +33,6 @@ pub enum Drawing {
     Fine,
 }
 
-/// Longest edge of fine crack faces, as a share of the mean edge of the mesh that the cracks ran through.
-pub(crate) const FINE_EDGE: f32 = 0.25;
-
 /// Largest distance of simplified crack faces from the computed ones, of the longest side of the body.
 pub const TOLERANCE: f32 = 0.005;
 

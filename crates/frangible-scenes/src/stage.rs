@@ -20,7 +20,7 @@ use crate::bonds::bond;
 use crate::error::SceneError;
 use crate::launch::{Launched, Target, launch, vector};
 use crate::meshes::{BodySurfaces, whole};
-use crate::output::{Drawing, FINE_EDGE, TOLERANCE};
+use crate::output::{Drawing, TOLERANCE};
 use crate::overlap::check_overlaps;
 use crate::projectile::Projectile;
 use crate::recorder::{Recorder, Role};
@@ -367,13 +367,9 @@ fn farthest_point(asset: &Asset) -> f32 {
 
 /// Detail of fine crack faces.
 fn fine_faces(asset: &Asset) -> FineFaces {
-    let (mesh_edge, material) = (asset.fracture().mean_edge(), asset.material());
-    FineFaces {
-        edge: FINE_EDGE * mesh_edge,
-        mesh_edge,
-        amplitude: material.roughness_amplitude as f32,
-        wavelength: material.roughness_wavelength as f32,
-    }
+    let material = asset.material();
+    let roughness = [material.roughness_amplitude, material.roughness_wavelength];
+    FineFaces::new(asset.fracture().mean_edge(), roughness)
 }
 
 /// Longest side of the body's box, m.

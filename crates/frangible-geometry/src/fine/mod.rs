@@ -32,6 +32,17 @@ pub struct FineFaces {
 }
 
 impl FineFaces {
+    /// A quarter of the edge of the mesh, with the roughness of a material: amplitude and wavelength, m.
+    #[must_use]
+    pub fn new(mesh_edge: f32, [amplitude, wavelength]: [f64; 2]) -> Self {
+        Self {
+            edge: 0.25 * mesh_edge,
+            mesh_edge,
+            amplitude: amplitude as f32,
+            wavelength: wavelength as f32,
+        }
+    }
+
     /// The mesh with finer crack faces. `origin`: its origin in the frame of the unbroken body, m.
     ///
     /// Crack faces get smooth normals, texture coordinates by [`box_projection`], and white where vertices have colours. Triangles of the outer
@@ -92,14 +103,7 @@ fn add_outer(fine: &mut RenderMesh, faces: &[Face], all: &RenderMesh, mesh: &Ren
         let corners = face.vertices.map(|v| {
             let v = v as usize;
             if number[v] == u32::MAX {
-                number[v] = fine.positions.len() as u32;
-                fine.positions.push(all.positions[v]);
-                fine.normals.push(all.normals[v]);
-                fine.uvs.push(all.uvs[v]);
-                for (uvs, all) in fine.more_uvs.iter_mut().zip(&all.more_uvs) {
-                    uvs.push(all[v]);
-                }
-                fine.colors.extend(all.colors.get(v));
+                number[v] = fine.push_vertex_of(all, v);
             }
             number[v]
         });
@@ -124,14 +128,8 @@ fn add_inner(fine: &mut RenderMesh, faces: &[Face], places: &[Vec3], flat: &[Vec
             let (position, normal) = (places[face.corners[k] as usize], normals[k]);
             let known = &mut known[face.corners[k] as usize][projection];
             if *known == u32::MAX || fine.normals[*known as usize] != normal {
-                *known = fine.positions.len() as u32;
-                fine.positions.push(position);
-                fine.normals.push(normal);
-                fine.uvs.push(box_projection(position + origin, along));
-                for uvs in &mut fine.more_uvs {
-                    uvs.push([0.0; 2]);
-                }
-                fine.colors.extend(has_colors.then_some([1.0; 4]));
+                let uv = box_projection(position + origin, along);
+                *known = fine.push_inner_vertex(position, normal, uv, has_colors);
             }
             *known
         });

@@ -72,6 +72,14 @@ struct Half {
     parts: [u32; 2],
 }
 
+impl Half {
+    /// An edge that is not halved.
+    const NONE: Self = Self {
+        middle: u32::MAX,
+        parts: [u32::MAX; 2],
+    };
+}
+
 /// A halved edge of a face: the middle, its vertex, and the halves in the order in which the face goes round.
 struct Cut {
     middle: u32,
@@ -135,7 +143,7 @@ impl Faces {
     /// Halves every edge of a crack face that is too long. Returns true if more may be.
     pub(super) fn halve(&mut self, fine: &FineFaces, origin: Vec3) -> bool {
         let count = self.edges.len();
-        let mut halves = vec![None; count];
+        let mut halves = vec![Half::NONE; count];
         for (number, half) in halves.iter_mut().enumerate() {
             let Edge { ends, kind } = self.edges[number];
             let [a, b] = ends.map(|end| self.places[end as usize]);
@@ -151,10 +159,10 @@ impl Faces {
             let place = self.places.len() as u32;
             self.places.push(middle + push);
             let parts = ends.map(|end| self.edge([end, place], kind));
-            *half = Some(Half {
+            *half = Half {
                 middle: place,
                 parts,
-            });
+            };
             self.edges[number].kind = EdgeKind::Whole;
         }
         let is_done = self.edges.len() == count;
@@ -170,8 +178,8 @@ impl Faces {
     }
 
     /// Divides a face by those of its edges that are halved.
-    fn divide(&mut self, face: &Face, halves: &[Option<Half>]) {
-        let is_halved = |k: &usize| halves[face.edges[*k] as usize].is_some();
+    fn divide(&mut self, face: &Face, halves: &[Half]) {
+        let is_halved = |k: &usize| halves[face.edges[*k] as usize].middle != u32::MAX;
         let count = (0..3).filter(is_halved).count();
         // The corners and edges from the halved edge on if one is, else from behind the whole edge.
         let first = match count {
@@ -224,12 +232,12 @@ impl Faces {
     }
 
     /// A halved edge of a face.
-    fn cut(&mut self, face: &Face, k: usize, halves: &[Option<Half>]) -> Cut {
+    fn cut(&mut self, face: &Face, k: usize, halves: &[Half]) -> Cut {
         let edge = face.edges[k] as usize;
-        let Some(Half { middle, parts }) = halves[edge] else {
-            unreachable!("only halved edges are cut");
-        };
-        let [first, second] = parts;
+        let Half {
+            middle,
+            parts: [first, second],
+        } = halves[edge];
         let is_along = self.edges[edge].ends[0] == face.corners[k];
         let (before, after) = if is_along {
             (first, second)

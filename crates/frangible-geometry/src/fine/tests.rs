@@ -146,8 +146,9 @@ fn the_two_sides_of_a_crack_fit() {
 }
 
 #[test]
-fn heights_grow_with_the_distance_to_the_power_0_8() {
-    // The mean square height difference of the ends of an edge, at the level where edges of the mesh are halved once and three times.
+fn middles_are_displaced_as_a_self_affine_profile_asks() {
+    let of = |length| split::middle_deviation(&FINE, length);
+    assert!((of(2.0 * SIDE) / of(SIDE) - 2.0_f32.powf(0.8)).abs() < 1e-4);
     let heights = |edge: f32| {
         let fine = FineFaces { edge, ..FINE };
         let all = corners(&fine.of(&piece(true, Vec3::ZERO), Vec3::ZERO), Vec3::ZERO);

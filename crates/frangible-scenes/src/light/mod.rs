@@ -57,14 +57,7 @@ fn drawn(mesh: &RenderMesh, topology: &Topology, origin: Vec3) -> RenderMesh {
         let corners = face.wedges.map(|wedge| {
             let source = topology.wedges[wedge as usize].vertex as usize;
             if number[source] == u32::MAX {
-                number[source] = light.positions.len() as u32;
-                light.positions.push(mesh.positions[source]);
-                light.normals.push(mesh.normals[source]);
-                light.uvs.push(mesh.uvs[source]);
-                for (uvs, all) in light.more_uvs.iter_mut().zip(&mesh.more_uvs) {
-                    uvs.push(all[source]);
-                }
-                light.colors.extend(mesh.colors.get(source));
+                number[source] = light.push_vertex_of(mesh, source);
             }
             number[source]
         });
@@ -100,20 +93,12 @@ fn add(
             let uv = box_projection(position + origin, flat);
             let bits = |x: f32| (x + 0.0).to_bits();
             let key = (places[k], normal.to_array().map(bits), uv.map(bits));
-            *known.entry(key).or_insert_with(|| {
-                light.positions.push(position);
-                light.normals.push(normal);
-                light.uvs.push(uv);
-                for uvs in &mut light.more_uvs {
-                    uvs.push([0.0; 2]);
-                }
-                if has_colors {
-                    light.colors.push([1.0; 4]);
-                }
-                light.positions.len() as u32 - 1
-            })
+            *known
+                .entry(key)
+                .or_insert_with(|| light.push_inner_vertex(position, normal, uv, has_colors))
         };
-        light.triangles.push([0, 1, 2].map(corner));
+        let corners = [0, 1, 2].map(corner);
+        light.triangles.push(corners);
     }
 }
 

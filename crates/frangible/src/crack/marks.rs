@@ -25,7 +25,7 @@ pub struct CrackMark {
     pub place: Vec3,
     /// Unit normal of the crack.
     pub normal: Vec3,
-    /// Where the crack came from in a straight line: its origin or its last fork, m, body frame.
+    /// Start of the straight line along which the crack came: its origin or its last fork, m, body frame.
     pub start: Vec3,
     /// Distance from there at which the mirror ends, m; infinite where the crack leaves nothing but a mirror.
     pub mirror: f32,
